@@ -28,7 +28,7 @@ type Step = (&'static str, fn() -> Result<Outcome>);
 
 /// The steps of every run, cheap and telling ones first. Lints, tests and docs have all features
 /// on, so that no feature is missed and everything is compiled once. The plain build, bare metal
-/// and firmware check what holds only without them.
+/// and firmware check the builds without features.
 const STEPS: &[Step] = &[
     ("format", || passes("fmt --all --check")),
     ("layers", || passed(layers::run())),

@@ -6,7 +6,7 @@ use serde_json::Value;
 use crate::ci::Outcome;
 use crate::workspace::{cargo, installed, read, target_folder};
 
-/// What is computed here shows nowhere at once: a wrong sign is found by tests alone.
+/// Crates whose wrong results show nowhere at once, so that only tests find them.
 const PACKAGES: &[&str] = &[
     "tolman-geom",
     "tolman-maze",
@@ -21,7 +21,7 @@ const LEAST: u64 = 92;
 /// Time that the tests of one change are given, seconds. One that never ends is noticed, too.
 const TIME: &str = "300";
 
-/// Files that hold tests alone: what is changed there says nothing of the code.
+/// Files of tests alone, whose changes say nothing about the code.
 const TESTS: &str = "**/tests.rs";
 
 /// Choice of the changes that are tried: of all, every `of`-th one from the `first` on.
@@ -43,7 +43,7 @@ impl Shard {
     }
 }
 
-/// Tries a share of the changes of these crates, or of all; or says why not.
+/// Tries a share of the changes of these crates, or of all crates. Explains if it cannot.
 ///
 /// # Errors
 /// As [`check`].

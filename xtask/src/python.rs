@@ -23,7 +23,7 @@ const WITHOUT_MDP: &[&str] = &["numpy"];
 /// Folder of the crate.
 const CRATE: &str = "crates/python";
 
-/// Tests the module, or says why it does not.
+/// Tests the module, or explains why it cannot.
 ///
 /// # Errors
 /// As [`check`].
@@ -101,7 +101,7 @@ impl Environment<'_> {
         Command::new(self.program("python"))
     }
 
-    /// Makes it again from nothing, and returns whether all required packages could be installed.
+    /// Makes the environment again, and returns whether all required packages could be installed.
     fn make(&self, system: &Path) -> Result<bool> {
         let mut make = Command::new(system);
         succeed(make.args(["-m", "venv", "--clear"]).arg(self.folder))?;

@@ -11,7 +11,7 @@ use crate::workspace::{cargo, succeed, target_folder};
 /// Manifest of the package.
 const MANIFEST: &str = "crates/rerun/Cargo.toml";
 
-/// Tests the package, or says why it does not.
+/// Tests the package, or explains why it cannot.
 ///
 /// # Errors
 /// As [`check`].
@@ -23,8 +23,7 @@ pub(crate) fn run() -> Result<()> {
     Ok(())
 }
 
-/// Checks the package's form, lints and tests it, if the crates it needs are there or can be
-/// fetched.
+/// Checks the package's form, lints it and tests it, if its crates are present or can be fetched.
 ///
 /// # Errors
 /// If it is not formatted, does not build or fails a test.

@@ -27,7 +27,7 @@ pub(crate) fn cargo(arguments: &str) -> Command {
     command
 }
 
-/// Returns what `cargo metadata` says of the workspace's members.
+/// Returns the workspace's members in the JSON of `cargo metadata`.
 ///
 /// # Errors
 /// If cargo cannot read a manifest.
@@ -100,7 +100,7 @@ pub(crate) fn succeed(command: &mut Command) -> Result<()> {
     Ok(())
 }
 
-/// Runs a command to its end and returns what it wrote on stdout.
+/// Runs a command to its end and returns its stdout.
 ///
 /// # Errors
 /// If it cannot be started, does not exit with 0, or does not write UTF-8.

@@ -1,4 +1,4 @@
-//! Who can be sent through a maze, by name.
+//! Agents that can be sent through a maze, by name.
 
 use alloc::sync::Arc;
 use std::sync::OnceLock;
@@ -11,7 +11,7 @@ use crate::episode_error::EpisodeError;
 use crate::mind::Mind;
 use crate::oracle::{Oracle, PlaceViews, Policy, UnlocalizedOracle};
 
-/// The agents by name: who can be sent through a maze.
+/// Agents by name: MSLST and its baselines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Agent {
     /// [`AvoidBrain`].
@@ -27,7 +27,7 @@ pub enum Agent {
 }
 
 impl Agent {
-    /// All of them: the paper's in its order, then floor and ceilings.
+    /// All agents: the paper's in its order, then floor and ceilings.
     pub const ALL: [Self; 5] = [
         Self::Avoid,
         Self::WallFollow,
@@ -71,8 +71,8 @@ impl Agent {
     }
 }
 
-/// Makes the minds of all agents for one robot on one course, and works out only once what they
-/// share.
+/// Makes the minds of all agents for one robot on one course. What they share is computed only
+/// once.
 #[derive(Debug, Default)]
 pub struct Cast {
     policy: OnceLock<Arc<Policy>>,
@@ -122,8 +122,8 @@ impl Cast {
     }
 }
 
-/// Returns what is in `cell`, or else what `make` makes for it. Two threads may make it at once;
-/// they make the same.
+/// Returns the value in `cell`, which `make` fills first if it is empty. Two threads may call
+/// `make` at once; both make the same value.
 fn once<T, E>(cell: &OnceLock<Arc<T>>, make: impl FnOnce() -> Result<T, E>) -> Result<Arc<T>, E> {
     let made = match cell.get() {
         Some(made) => made,

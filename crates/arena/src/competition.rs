@@ -1,4 +1,4 @@
-//! Whole mazes explored by a [`CompetitionMouse`], cell by cell.
+//! Explores whole mazes with a [`CompetitionMouse`], cell by cell.
 //!
 //! ```
 //! use tolman_arena::competition;

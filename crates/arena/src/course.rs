@@ -106,10 +106,10 @@ pub enum CourseError {
 /// A world with corridors of one width, a destination if there is one, and places to start from.
 ///
 /// Most are mazes. In a [free world](Self::in_free_world) walls stand anywhere; there the cells are
-/// squares of half the robot's radius, which the same questions are answered by.
+/// squares with sides of half the robot's radius.
 #[derive(Clone, Debug)]
 pub struct Course {
-    /// The maze, or the file's, name.
+    /// Name of the maze or of the file.
     pub name: String,
     /// The maze it was built from. For a free world: its squares, with walls where the robot cannot
     /// pass from the middle of one to that of the next. If you need corridors and junctions as
@@ -121,11 +121,11 @@ pub struct Course {
     pub corridor_width: f64,
     /// Number of cells to the destination, by cell index; `None` where no way leads there.
     steps_to_goal: Vec<Option<u32>>,
-    /// `None` for a maze.
+    /// Floor of a free world; `None` for a maze.
     free: Option<FreeFloor>,
 }
 
-/// The part of a course that only a free world has.
+/// Part of a course that only a free world has.
 #[derive(Clone, Debug)]
 struct FreeFloor {
     paving: Paving,
@@ -204,7 +204,7 @@ impl Course {
         Ok(course)
     }
 
-    /// Returns whether it is a world whose walls stand anywhere, and no maze.
+    /// Returns whether it is a free world, in which walls stand anywhere.
     #[must_use]
     pub const fn is_free(&self) -> bool {
         self.free.is_some()
@@ -276,8 +276,8 @@ impl Course {
         (libm::ceil(STEPS_PER_METRE * metres - 1e-9) as u32).max(LEAST_STEPS)
     }
 
-    /// Returns whether a way leads from a position to the destination: whether it lies in a cell
-    /// that is not walled off from it. In a free world a square beside it is as good.
+    /// Returns whether a way leads from a position to the destination: whether its cell is not
+    /// walled off. In a free world, one of the squares beside it is enough.
     #[must_use]
     pub fn leads_on(&self, position: Point) -> bool {
         if let Some(free) = &self.free {
@@ -288,7 +288,7 @@ impl Course {
         cell.is_some_and(|cell| self.steps_from(cell).is_some())
     }
 
-    /// Returns the zone to which the robot has to go; `None` if the maze does not say.
+    /// Returns the zone to which the robot has to go; `None` if the course has no destination.
     #[must_use]
     pub fn destination(&self) -> Option<&Zone> {
         self.world.zone("destination")
@@ -323,7 +323,7 @@ impl Course {
         Some(f64::from(self.steps_from(start)?) * self.corridor_width)
     }
 
-    /// Returns the same from the cell in which `position` lies.
+    /// Returns the length of the shortest way to the destination from the cell of `position`, m.
     #[must_use]
     pub fn shortest_metres_from(&self, position: Point) -> Option<f64> {
         if let Some(free) = &self.free {
@@ -335,8 +335,8 @@ impl Course {
     }
 
     /// Returns the first of four cells without a wall between them; `None` if there are none, and
-    /// in a free world. In rooms a robot that follows corridors may go round forever, and take one
-    /// way out for another.
+    /// in a free world. In rooms a robot that follows corridors may go round forever, and confuse
+    /// ways out.
     #[must_use]
     pub fn room(&self) -> Option<Cell> {
         if self.is_free() {
@@ -379,9 +379,9 @@ impl Course {
         Ok(self.in_cell(cell, direction))
     }
 
-    /// Returns a random start. The cell is any of [those](Self::starts), or any of all without a
-    /// destination. The position is in its middle, where the body stands clear of walls on all four
-    /// sides; the heading is any. In a free world it is the middle of a square.
+    /// Returns a random start: the middle of a random cell, with a random heading. The cell is one
+    /// of [`starts`](Self::starts), or any if there is no destination. The body stands clear of
+    /// walls there. In a free world it is the middle of a square.
     pub fn random_start(&self, body: &Body, rng: &mut impl Rng) -> Pose {
         let mut cells: Vec<Cell> = self.starts().collect();
         if cells.is_empty() {
@@ -402,7 +402,7 @@ impl Course {
 
     /// Returns the middle of any cell from which the destination can be reached, looking along a
     /// way out of it; `None` if there are none. In a free world it is moved to the middle between
-    /// what bounds the robot on both sides.
+    /// the obstacles on both sides.
     #[must_use]
     pub fn anywhere(&self, seed: u64) -> Option<Pose> {
         let out_of = |cell| {

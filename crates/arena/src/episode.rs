@@ -1,4 +1,4 @@
-//! One run of one mind: from a start until the destination is reached or time is up.
+//! Runs one mind once: from a start until the destination is reached or time is up.
 
 mod step;
 
@@ -21,18 +21,18 @@ use crate::run::{self, InRun, Limited, TaskEnd};
 pub use crate::episode_error::EpisodeError;
 pub use step::{Chooser, Step};
 
-/// Ingredients of a run, beside the mind.
+/// Everything a run needs except the mind.
 #[derive(Clone, Debug)]
 pub struct Trial<'a> {
     /// Course of the run.
     pub course: &'a Course,
-    /// The robot.
+    /// Configuration of the robot.
     pub robot: LaserPioneerConfig,
     /// Pose at the beginning.
     pub start: Pose,
-    /// Number of time steps after which it has failed.
+    /// Number of time steps after which the run has failed.
     pub step_limit: u32,
-    /// The seed of the run: world, layers and mind draw from streams of their own.
+    /// Seed of the run. World, layers and mind draw from separate streams.
     pub seed: u64,
 }
 
@@ -64,13 +64,13 @@ pub struct Episode {
     pub path: Vec<Pose>,
 }
 
-/// The streams that one run's seed is split into, beside the simulation's own.
+/// Streams into which one run's seed is split, beside the simulation's own.
 const LAYERS_STREAM: u64 = 1;
 const MIND_STREAM: u64 = 2;
 /// The stream of random starts.
 pub const START_STREAM: u64 = 3;
 
-/// Task of a mind.
+/// Task that every mind is given.
 const ARRIVE: Task = Task::Reach(Goal::Landmark(Landmark::Goal));
 
 /// Returns the random start of the run with this seed: see [`Course::random_start`].
@@ -101,11 +101,11 @@ pub fn run(
     run_lifted(trial, mind, None, watch)
 }
 
-/// Runs like [`run()`] and returns the same, with a robot that is lifted on the way.
+/// Runs like [`run()`], with a robot that is lifted on the way, and returns the same.
 ///
 /// # Errors
-/// [`EpisodeError`] if the robot cannot be built, or cannot be put where it begins or where it is
-/// lifted to.
+/// [`EpisodeError`] if the robot cannot be built, or cannot stand at its start or where it is put
+/// down.
 pub fn run_lifted(
     trial: &Trial<'_>,
     mind: &mut Mind,

@@ -23,7 +23,7 @@ pub enum EpisodeError {
     /// The layers do not fit the robot's ring.
     #[error("the layers do not fit the robot's ring")]
     Layers(#[from] RingError),
-    /// The mind cannot live on such a course.
+    /// The mind cannot work on this course.
     #[error(transparent)]
     Course(#[from] CourseError),
     /// The course is too large for the oracle.
@@ -46,13 +46,13 @@ pub enum EpisodeError {
     },
 }
 
-/// Returns that the simulator refused the command of time step `step`.
+/// Returns the error that the simulator refused the command of time step `step`.
 pub(crate) const fn step_failed(step: u32, source: StepError) -> EpisodeError {
     let source = ActorError::Robot(LimitedError::Robot(source));
     EpisodeError::Step { step, source }
 }
 
-/// Returns why a run broke off at the robot's next step.
+/// Returns the error for a run that broke off at the robot's next step.
 pub(crate) fn broken(
     robot: &Limited<impl Robot>,
     source: ActorError<LimitedError<StepError>, Infallible>,

@@ -9,14 +9,14 @@ use tolman_maze::{Braided, Cell, Direction, Maze, Perfect, Rooms};
 
 use crate::BoxError;
 
-/// A family of worlds.
+/// Worlds of one kind, each drawn from its size and a seed.
 #[derive(Clone, Copy, Debug)]
 pub struct Family {
-    /// Its name, as in `tolman maze generate NAME`.
+    /// Name as in `tolman maze generate NAME`.
     pub name: &'static str,
     /// Common features of its drawings, in one line.
     pub about: &'static str,
-    /// Difficulty of its drawings, in a few words.
+    /// Difficulty of its drawings for a system, in a few words.
     pub hard: &'static str,
     /// Kinds of places, beside dead ends, the start and the goal.
     pub places: &'static str,
@@ -40,7 +40,7 @@ pub enum FamilySize {
     Large,
 }
 
-/// Junctions are the places of most families.
+/// Description of the places of most families.
 const JUNCTIONS: &str = "junctions";
 
 const SQUARE: [(u16, u16); 3] = [(5, 5), (8, 8), (16, 16)];
@@ -78,14 +78,15 @@ impl Family {
         self.sizes[size as usize]
     }
 
-    /// Returns the one of these names; `braided-rooms` is `braided rooms`.
+    /// Returns the family of this name; `braided-rooms` is `braided rooms`. `None` if there is
+    /// none.
     #[must_use]
     pub fn named<'a>(families: &'a [Self], name: &str) -> Option<&'a Self> {
         let typed = name.to_lowercase().replace('-', " ");
         families.iter().find(|family| family.name == typed)
     }
 
-    /// The families that every system is tried in.
+    /// Families in which every system is tested.
     pub const ARENA: [Self; 14] = [
         Self::new(
             "perfect",
@@ -168,7 +169,7 @@ impl Family {
             .hard("what their systems were made for"),
     ];
 
-    /// Returns all families that are known here: those of the arena, and what else can be drawn.
+    /// Returns all known families: those of the arena, then the others.
     #[must_use]
     pub fn all() -> Vec<Self> {
         let rooms = Self::new(
@@ -228,8 +229,8 @@ const PAPERS: [&str; 5] = [
     include_str!("../mazes/cpm-3.maze"),
 ];
 
-/// Returns one of the papers' mazes at random. If it marks no start, that is the cell farthest from
-/// its goal.
+/// Returns one of the papers' mazes at random. If it marks no start, the start is the cell farthest
+/// from its goal.
 fn papers(rng: &mut impl Rng) -> Result<Maze, BoxError> {
     let text = PAPERS[rng.random_range(0..PAPERS.len() as u32) as usize];
     let mut maze = tolman_maze::read(text)?.maze;

@@ -8,7 +8,7 @@ use tolman_systems::baselines::AvoidBrain;
 use tolman_systems::mslst::better::BetterExplorer;
 use tolman_systems::{Brain, Doing, RolledStep};
 
-/// An explorer that wanders on for a while once it has been everywhere, and goes on learning.
+/// An explorer that goes on wandering and learning for a while after it has been everywhere.
 #[derive(Debug)]
 pub(crate) struct Lingerer {
     explorer: BetterExplorer,
@@ -22,8 +22,7 @@ pub(crate) struct Lingerer {
 }
 
 impl Lingerer {
-    /// Returns a brain that makes `times` as many actions as it takes `explorer` to have been
-    /// everywhere.
+    /// Returns a brain that makes `times` as many actions as `explorer` needs to be everywhere.
     pub(crate) fn new(explorer: BetterExplorer, times: u32) -> Self {
         Self {
             explorer,
@@ -43,7 +42,8 @@ impl Lingerer {
         }
     }
 
-    /// Returns how many actions it took to have been everywhere; all, where it never had.
+    /// Returns the number of actions until the robot had been everywhere, or of all actions if it
+    /// never was.
     pub(crate) fn explored(&self) -> u32 {
         self.explored.unwrap_or(self.actions)
     }

@@ -1,4 +1,4 @@
-//! Errors of a way that was found from a log, by published ground truth.
+//! Measures the errors of a trajectory found from a log, by published ground truth.
 //!
 //! [`RelationScore`] uses relative poses that were verified by hand; [`AlignedScore`] another
 //! trajectory, whose frame need not be the same.

@@ -15,8 +15,8 @@ pub type AnyRollingBrain = dyn Brain<Observation = RolledStep, Error = Infallibl
 pub enum Mind {
     /// One that perceives.
     Brain(Box<AnyBrain>),
-    /// One that perceives, what its wheels rolled included.
+    /// A brain that also perceives its wheels' odometry.
     Rolling(Box<AnyRollingBrain>),
-    /// One that is shown the truth.
+    /// An oracle, which is shown the truth.
     Oracle(Box<Oracle>),
 }

@@ -107,7 +107,7 @@ pub trait Outing: InRun {
         Err("its system is not exchanged".into())
     }
 
-    /// Returns its system, to be exchanged; `None` if that is not.
+    /// Returns the system to exchange, or `None` if the outing does not exchange it.
     fn system_mut(&mut self) -> Option<&mut dyn Any> {
         None
     }
@@ -227,7 +227,7 @@ pub trait Depicted: Recordable {
         None
     }
 
-    /// Returns what its laser sees.
+    /// Returns the scan of its laser, or `None` if it has no laser or the scan drops out.
     fn scan(_sensing: &Self::Sensing) -> Option<&Scan> {
         None
     }

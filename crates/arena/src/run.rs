@@ -24,7 +24,7 @@ pub struct Limited<R: Robot> {
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum LimitedError<E> {
     /// The run has as many time steps as it may have.
-    #[error("the run ended after {steps} time steps")]
+    #[error("the run reached its limit of {steps} time steps; raise the limit")]
     OutOfTime {
         /// The number of time steps made.
         steps: u32,

@@ -47,7 +47,7 @@ impl<M: Model> Simulated<M> {
         self.solo.truth()
     }
 
-    /// Returns its model.
+    /// Returns the robot's model.
     #[must_use]
     pub fn model(&self) -> &M {
         self.solo.model()

@@ -35,7 +35,7 @@ fn learned() -> &'static BetterLearned {
     LEARNED.get_or_init(|| learn_better(course(), &robot(), 1, 5).unwrap())
 }
 
-/// Map, plan and belief of a robot that navigates, and all of it per place.
+/// Measures the memory of a navigating robot's map, plan and belief, per place.
 #[test]
 fn what_navigates_takes_less_than_a_kibibyte_a_place() {
     let learned = learned();

@@ -100,7 +100,7 @@ fn reachable(pitch: &Pitch) -> BTreeSet<Cell> {
     free.map(|point| pitch.cell_of(point)).collect()
 }
 
-/// 300 legs miss at most `most_missed` of the cells that can be reached.
+/// Checks that 300 legs miss at most the share `most_missed` of the cells that can be reached.
 fn check(pitch: &Pitch, config: WandererConfig, seed: u64, most_missed: f64) {
     let wandered = wander(pitch, config, 300, seed);
     let all = reachable(pitch);
@@ -120,7 +120,7 @@ fn it_gets_everywhere_and_out_of_everywhere() {
     }
 }
 
-/// By the paper's limits it comes to the cells in the corners by chance alone.
+/// By the paper's limits the robot reaches the cells in the corners by luck alone.
 #[test]
 fn by_the_papers_limits_it_gets_nearly_everywhere() {
     for name in ["pitch", "hall", "l-room"] {
@@ -135,8 +135,8 @@ fn data(seed: u64) -> DataSet {
     gather(&pitch, quick(&pitch, seed), seed, 300).unwrap()
 }
 
-/// The records are labelled by hand, of which one in a hundred is wrong, and the goals are straight
-/// ahead of theirs.
+/// Checks the labels, of which one in a hundred is wrong, and the goals, which lie straight ahead
+/// of their records.
 #[test]
 fn the_truth_is_written_down_beside_the_records() {
     let (data, pitch) = (data(1), Pitch::paper().unwrap());

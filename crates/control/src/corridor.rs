@@ -81,7 +81,7 @@ pub struct Corridor {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CorridorDetector {
-    /// The ring whose scans it reads.
+    /// Ring whose scans it reads.
     ring: Ring,
     /// Opposite pairs in the ring.
     pairs: usize,
@@ -143,8 +143,8 @@ impl CorridorDetector {
             && !view.scan.ranges.iter().any(|range| range.is_nan())
     }
 
-    /// Returns the corridor in view. `None` at what looks like a junction, a bend or an open place,
-    /// or if it cannot [read](Self::reads) the view.
+    /// Returns the corridor in view. `None` at a junction, a bend or an open place, or if it cannot
+    /// [read](Self::reads) the view.
     #[must_use]
     pub fn detect(&self, view: View<'_>) -> Option<Corridor> {
         if !self.reads(view) {

@@ -139,7 +139,8 @@ impl<G: Rng> Drive<G> {
         }
     }
 
-    /// Returns what the layers make of this time step.
+    /// Returns the layers' proposal for this time step. A robot without a scan or a heading stands
+    /// still.
     fn propose<R>(&mut self, robot: &R) -> Proposal
     where
         R: Robot,
@@ -166,7 +167,7 @@ mod tests {
 
     use super::*;
 
-    /// A robot that senses nothing and counts its steps.
+    /// A robot without sensors that counts its steps.
     struct Blind {
         sensing: LaserSensing,
         steps: u32,

@@ -8,14 +8,14 @@ use crate::{Corridor, Outcome};
 /// Perception of the robot in this time step.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a> {
-    /// Ranges in the robot's frame, m; infinity where nothing was met is as good as the largest
-    /// range.
+    /// Ranges in the robot's frame, m. Infinity where nothing was met has the same effect as the
+    /// largest range.
     pub scan: &'a Scan,
     /// The compass heading; 0 is east.
     pub heading: Heading,
 }
 
-/// A view, and what the stack has made of it once for all layers.
+/// A view, with the results that the stack computes once for all layers.
 #[derive(Clone, Copy, Debug)]
 pub struct Situation<'a> {
     /// The perception.
@@ -43,7 +43,7 @@ pub trait Layer: core::fmt::Debug {
         let _ = action;
     }
 
-    /// Corrects what the layer above proposes for this time step.
+    /// Corrects the proposal of the layer above for this time step.
     fn correct(
         &mut self,
         proposal: Proposal,

@@ -14,7 +14,7 @@ pub enum Outcome {
 }
 
 impl Outcome {
-    /// Returns whether the robot got anywhere: [`Outcome::Completed`] or [`Outcome::CutShort`].
+    /// Returns whether the robot moved on: [`Outcome::Completed`] or [`Outcome::CutShort`].
     #[must_use]
     pub const fn moved(self) -> bool {
         matches!(self, Self::Completed | Self::CutShort)

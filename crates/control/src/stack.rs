@@ -55,8 +55,8 @@ impl Stack {
     }
 
     /// Returns the paper's four layers with the paper's gains, and [`Settle`] below them, which
-    /// ends what would swing without end. The robot is `robot_unit` metres in diameter and sees
-    /// through `ring`, in corridors `width` metres wide.
+    /// ends oscillations. The robot is `robot_unit` metres in diameter and sees through `ring`, in
+    /// corridors `width` metres wide.
     ///
     /// # Errors
     /// [`RingError`] if the ring is not a full circle of quarters or a length is invalid.
@@ -76,8 +76,8 @@ impl Stack {
         ))
     }
 
-    /// Returns this stack, which sees scans without [stuck beams](StuckBeams) and [straightened]:
-    /// for lasers that err, of which Orient would turn to and fro.
+    /// Returns this stack, which sees scans without [stuck beams](StuckBeams) and [straightened].
+    /// It is for lasers with errors, which would make Orient turn to and fro.
     #[must_use]
     pub fn straightening(self) -> Self {
         Self {

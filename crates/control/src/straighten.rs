@@ -8,7 +8,7 @@ const OFF: f64 = 0.05;
 
 /// Returns a scan whose ranges end on the straight walls that the beams show together. Where the
 /// ends of the beams beside a beam lie near one line, its range is that of the fitted line.
-/// Elsewhere it is as sensed. Noise of single beams goes, corners stay.
+/// Elsewhere the range is unchanged. This removes the noise of single beams and keeps corners.
 ///
 /// A line is a · x + b · y = 1, of which the fit is linear in the ends. O(beams).
 ///

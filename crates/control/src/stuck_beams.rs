@@ -45,8 +45,8 @@ const ENOUGH: u8 = 16;
 const MOST: u8 = 48;
 
 impl StuckBeams {
-    /// Takes in a scan and returns it without what stuck beams say. A ring of another size keeps
-    /// what is known of the beams that both have. O(beams).
+    /// Takes in a scan and returns it without the readings of stuck beams. After a change of the
+    /// ring's size, only the beams of both sizes keep their state. O(beams).
     #[must_use]
     pub fn mended(&mut self, scan: &Scan) -> Scan {
         let ranges = &scan.ranges;
@@ -63,8 +63,8 @@ impl StuckBeams {
         mended
     }
 
-    /// Returns the nearer of what the sound beams on either side of a beam say, or `None` where all
-    /// are stuck.
+    /// Returns the smaller of the ranges of the sound beams on either side of a beam, or `None` if
+    /// all are stuck.
     fn beside(&self, ranges: &[f64], beam: usize) -> Option<f64> {
         let count = ranges.len();
         let sound = |index: &usize| !self.beams[*index].stuck;
@@ -87,7 +87,8 @@ impl Beam {
     }
 }
 
-/// Returns whether a beam says much more, or much less, than both beams beside it.
+/// Returns whether a beam's range is much larger, or much smaller, than those of both its
+/// neighbours.
 fn contradicts(ranges: &[f64], beam: usize) -> bool {
     let count = ranges.len();
     let (before, after) = (

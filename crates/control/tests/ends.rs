@@ -55,7 +55,7 @@ impl Place {
         }
     }
 
-    /// Returns where a body that cannot pass a wall ends up.
+    /// Returns the position nearest to `position` that a body held by the walls can take.
     fn held(self, position: Point) -> Point {
         let Self::Corridor { width } = self else {
             return position;
@@ -173,7 +173,7 @@ fn every_action_ends() {
     );
 }
 
-/// Otherwise the test above would show nothing.
+/// Shows that the test above depends on the layer.
 #[test]
 fn without_the_layer_hundreds_of_actions_do_not_end() {
     let endless = trials()
@@ -182,7 +182,7 @@ fn without_the_layer_hundreds_of_actions_do_not_end() {
     assert!(endless > 1000, "{endless}");
 }
 
-/// The paper's robot changes the side at most seven times an action when its motors make no noise.
+/// The paper's robot changes sides at most seven times in an action if its motors make no noise.
 #[test]
 fn the_layer_leaves_the_papers_robot_alone() {
     let mut rng = ChaCha8Rng::seed_from_u64(1);

@@ -47,7 +47,7 @@ fn look(pilot: &mut Pilot<Solo<Epuck>>) -> (Profile, Segments) {
     (profile, segments)
 }
 
-/// Returns where the robot is in its cell, and how many ways lead out of that.
+/// Returns the robot's offset from its cell's middle, m, and the number of ways out of the cell.
 fn truth(pilot: &Pilot<Solo<Epuck>>, maze: &Maze) -> (Point, usize) {
     let solo = pilot.robot();
     let (world, pose) = (solo.simulation().world(), solo.truth().pose);
@@ -148,8 +148,8 @@ fn it_follows_every_path_without_touching_a_wall() {
     }
 }
 
-/// From a fork with a way to the south to the next, a cell on, with one to the north. The robot
-/// stands off the middle, towards the way to the south, where a fork has the most room.
+/// The robot drives from a fork with a way to the south to the next cell, a fork with a way to the
+/// north. It stands off the middle, towards the way to the south, where a fork has the most room.
 #[test]
 fn between_neighbouring_forks_it_keeps_its_way() {
     let text = "\

@@ -12,8 +12,7 @@ use tolman_control::epuck::{
 };
 use tolman_control::{Avoid, Center, Move, Orient};
 
-/// Whether a value reads back as it was, without a field of its own as well as with one that is not
-/// its.
+/// Checks that a value reads back as it was. A missing or an unknown field must be refused.
 #[track_caller]
 fn round_trip<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T) {
     let json = serde_json::to_value(value).unwrap();
@@ -37,7 +36,7 @@ fn round_trip<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T) {
     }
 }
 
-/// Whether a value is refused once a field says `number`.
+/// Checks that a value is refused if `field` holds `number`.
 #[track_caller]
 fn refuses<T: Serialize + DeserializeOwned + Debug>(value: &T, field: &str, number: &Value) {
     let mut json = serde_json::to_value(value).unwrap();

@@ -16,8 +16,8 @@ const UNIT: f64 = 0.5;
 const WIDTH: f64 = 1.9 * UNIT;
 const RING: fn() -> Ring = || Ring::full(72, 2.5 * UNIT);
 
-/// Returns what the ring sees in an endless corridor along `axis`, looking to `heading`. The robot
-/// is `left` metres from the wall to the left of the axis.
+/// Returns the ring's scan in an endless corridor along `axis`, looking to `heading`. The robot is
+/// `left` metres from the wall to the left of the axis.
 fn corridor_scan(axis: Heading, left: f64, heading: Heading) -> Scan {
     let mut scan = Scan::clear(RING());
     let ring = scan.ring;
@@ -195,8 +195,8 @@ mod move_layer {
 mod orient {
     use super::*;
 
-    /// Returns what becomes of `action` in a corridor along north, from `offset` degrees off the
-    /// axis.
+    /// Returns the proposal that the layers make of `action` in a corridor along north, from a
+    /// heading `offset_deg` off its axis.
     fn outcome(action: Direction, offset_deg: f64) -> Proposal {
         let heading = Heading::from_degrees(90.0 + offset_deg);
         let scan = corridor_scan(Heading::NORTH, 0.5 * WIDTH, heading);

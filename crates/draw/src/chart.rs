@@ -70,7 +70,7 @@ impl Axis {
         self
     }
 
-    /// Sets the range; what lies beyond it is cut off.
+    /// Sets the range. Values beyond it are cut off.
     #[must_use]
     pub const fn between(mut self, low: f64, high: f64) -> Self {
         self.ends = Some(ConfidenceInterval::new(low, high));
@@ -291,7 +291,7 @@ impl Chart {
         }));
     }
 
-    /// Returns the finished picture. `description` says in words what it shows.
+    /// Returns the finished picture. `description` describes it in words.
     pub fn drawing(&self, description: impl Into<String>) -> Drawing {
         let (legend, legend_height) = self.legend();
         let top = TOP + legend_height;

@@ -72,7 +72,7 @@ impl Figure {
         }
     }
 
-    /// Sets the caption, which says how to read it.
+    /// Sets the caption, which explains how to read it.
     #[must_use]
     pub fn caption(mut self, caption: impl Into<String>) -> Self {
         self.caption = caption.into();

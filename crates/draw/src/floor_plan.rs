@@ -149,7 +149,7 @@ impl FloorPlan {
         self.stroke("trajectory faint", None, positions, series);
     }
 
-    /// Adds a broad band along positions, without ends: a way on a map that leaves other things
+    /// Adds a broad band along positions, without ends: a way on a map that leaves other marks
     /// visible.
     pub fn way(&mut self, positions: &[Point], series: Series) {
         self.stroke("way", None, positions, series);
@@ -160,7 +160,7 @@ impl FloorPlan {
         self.stroke("trajectory", Some("4 3"), positions, series);
     }
 
-    /// Adds many straight lines as one element; dashed for what is doubtful.
+    /// Adds many straight lines as one element; dashed for doubtful ones.
     pub fn segments(&mut self, segments: &[[Point; 2]], dashed: bool, series: Series) {
         let lines = segments
             .iter()
@@ -298,7 +298,7 @@ impl FloorPlan {
         )
     }
 
-    /// Returns the finished picture. `description` says in words what it shows.
+    /// Returns the finished picture. `description` describes it in words.
     pub fn drawing(self, description: impl Into<String>) -> Drawing {
         let legend = self.legend.as_ref().map_or(0.0, |_| Shade::LEGEND + 8.0);
         let (key, key_height) = self.key.markup(MARGIN, self.height + legend, self.width);

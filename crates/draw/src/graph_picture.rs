@@ -33,7 +33,7 @@ use super::words;
 pub struct GraphPicture {
     /// The nodes, known by their index.
     pub nodes: Vec<GraphNode>,
-    /// The edges.
+    /// Edges, by the indices of their nodes.
     pub edges: Vec<GraphEdge>,
     /// The radius of a node, user units.
     pub radius: f64,
@@ -46,7 +46,7 @@ pub struct GraphPicture {
 pub struct GraphNode {
     /// Position on the picture.
     pub position: Point,
-    /// Its class by colour.
+    /// Series whose colour it has.
     pub series: Series,
     /// Its class by shape.
     pub mark: NodeMark,
@@ -75,7 +75,7 @@ pub struct GraphEdge {
     pub from: usize,
     /// Index of the node at which the edge ends.
     pub to: usize,
-    /// Its class by colour.
+    /// Series whose colour it has.
     pub series: Series,
     /// Its class by line.
     pub line: EdgeLine,
@@ -89,7 +89,7 @@ pub enum EdgeLine {
     /// A line.
     #[default]
     Plain,
-    /// A dashed line, for what is doubtful.
+    /// A dashed line, for doubtful things.
     Dashed,
     /// A line with an arrow head towards its end; two that run opposite ways show both heads.
     Arrow,

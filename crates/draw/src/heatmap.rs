@@ -50,7 +50,7 @@ pub struct HeatMap {
     pub values: Vec<Vec<f64>>,
     /// Colours of values.
     pub shade: Shade,
-    /// Part of each cell that is hatched, if any.
+    /// Part of each cell that is hatched; `None` for no hatching.
     pub hatching: Option<Hatching>,
 }
 
@@ -112,7 +112,7 @@ fn hatch([x, y]: [f64; 2], [width, height]: [f64; 2]) -> String {
 }
 
 impl HeatMap {
-    /// Returns the finished picture. `description` says in words what it shows.
+    /// Returns the finished picture. `description` describes it in words.
     pub fn drawing(&self, description: impl Into<String>) -> Drawing {
         let widest = |texts: &[String]| texts.iter().map(|t| words::width(t)).fold(0.0, f64::max);
         let written = self

@@ -105,7 +105,7 @@ impl Image {
         Ok(Self { width, height, png })
     }
 
-    /// Returns the picture `width` user units wide. `description` says in words what it shows.
+    /// Returns the picture, `width` user units wide. `description` describes it in words.
     pub fn drawing(&self, description: impl Into<String>, width: f64) -> Drawing {
         let height = width * f64::from(self.height) / f64::from(self.width);
         let data = self.data();

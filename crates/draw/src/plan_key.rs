@@ -26,7 +26,7 @@ pub enum KeyMark {
     Square,
     /// A line, for an edge or a way.
     Line,
-    /// A dashed line, for what is doubtful.
+    /// A dashed line, for doubtful things.
     Dashed,
     /// A box, for where something may be.
     Box,

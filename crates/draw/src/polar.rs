@@ -72,7 +72,7 @@ impl PolarPlot {
         });
     }
 
-    /// Returns the finished picture. `description` says in words what it shows.
+    /// Returns the finished picture. `description` describes it in words.
     pub fn drawing(self, description: impl Into<String>) -> Drawing {
         let middle = tenths(self.middle());
         let (half, full) = (0.5 * self.radius(), self.radius());

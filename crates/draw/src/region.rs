@@ -3,7 +3,7 @@
 use tolman_geom::{Heading, Point, Pose};
 use tolman_sim::Bounds;
 
-/// A region that holds something whose place is not known exactly, for
+/// A region that contains something at an uncertain position, for
 /// [`FloorPlan::region`](super::FloorPlan::region).
 ///
 /// ```
@@ -26,7 +26,7 @@ use tolman_sim::Bounds;
 pub enum Region {
     /// A box with its middle at a pose, along the pose's heading.
     Box {
-        /// The middle and the heading.
+        /// Pose of its middle.
         pose: Pose,
         /// Extent along the heading, m.
         length: f64,
@@ -35,7 +35,7 @@ pub enum Region {
     },
     /// An ellipse with its middle at a pose, one axis along the pose's heading.
     Ellipse {
-        /// The middle and the heading.
+        /// Pose of its middle.
         pose: Pose,
         /// Half the extent along the heading, m.
         along: f64,

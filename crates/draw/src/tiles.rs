@@ -48,7 +48,7 @@ impl Tiles {
         self.tile(caption, image.drawing(caption, width));
     }
 
-    /// Returns the finished picture. `description` says in words what it shows.
+    /// Returns the finished picture. `description` describes it in words.
     pub fn drawing(self, description: impl Into<String>) -> Drawing {
         let widest = |size: fn(&Drawing) -> f64| {
             self.tiles

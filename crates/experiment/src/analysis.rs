@@ -19,7 +19,7 @@ pub struct Analysis {
 /// One table, measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableAnalysis {
-    /// The table.
+    /// Table that was analysed.
     pub table: Table,
     /// Metrics in the table's order.
     pub metrics: Vec<MetricAnalysis>,
@@ -30,7 +30,7 @@ pub struct TableAnalysis {
 /// One metric of a table, measured.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MetricAnalysis {
-    /// The metric.
+    /// Metric that was analysed.
     pub metric: Metric,
     /// The rows that have it, in the table's order.
     pub rows: Vec<Measured>,

@@ -1,4 +1,4 @@
-//! File operations whose errors name the file.
+//! File operations with errors that name the file.
 
 use std::fs;
 use std::io;

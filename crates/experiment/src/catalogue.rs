@@ -9,7 +9,7 @@ pub struct Entry {
     pub name: &'static str,
     /// Description in one line: the title of the report.
     pub title: &'static str,
-    /// The paper whose tables these are, as a reader would cite it; empty if there is none.
+    /// Paper whose tables these are, as a reader would cite it; empty if there is none.
     pub source: &'static str,
     /// Default number of runs of each row.
     pub runs: u32,

@@ -73,7 +73,7 @@ impl Column {
         self
     }
 
-    /// Sets the unit.
+    /// Sets the unit, which is shown after the title.
     #[must_use]
     pub fn unit(mut self, unit: impl Into<String>) -> Self {
         self.unit = unit.into();

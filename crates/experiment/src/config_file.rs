@@ -1,4 +1,4 @@
-//! `config.toml`: everything that is needed to repeat the results.
+//! Reads and writes `config.toml`, which holds everything needed to repeat the results.
 
 // Input holds any bytes: a reader indexes nothing.
 #![cfg_attr(not(test), warn(clippy::indexing_slicing))]

@@ -30,13 +30,13 @@ pub enum Error {
     /// A number of runs or jobs is zero.
     #[error("{option} is 0, so nothing would be run; give it 1 or more")]
     Zero {
-        /// The option.
+        /// Name of the option.
         option: &'static str,
     },
     /// A table has a fixed number of runs.
     #[error("table {table:?} always has {own} runs per row; leave --runs out")]
     FixedRuns {
-        /// The table.
+        /// Name of the table.
         table: String,
         /// Maximum number of runs of its rows.
         own: u32,
@@ -44,7 +44,7 @@ pub enum Error {
     /// A table that the options name would have no runs.
     #[error("table {table:?} would have no runs; give a greater number with --runs")]
     EmptyTable {
-        /// The table.
+        /// Name of the table.
         table: String,
     },
     /// More runs are asked for than fit into memory.
@@ -58,7 +58,7 @@ pub enum Error {
     /// The master seed is too large for TOML's integers.
     #[error("seed {seed} is too large for config.toml; give one below 2^63")]
     Seed {
-        /// The seed.
+        /// Seed that was given.
         seed: u64,
     },
     /// The experiment's tables are inconsistent.
@@ -76,7 +76,7 @@ pub enum Error {
         folder.display()
     )]
     ForeignFolder {
-        /// The folder.
+        /// Path of the folder.
         folder: PathBuf,
         /// Value found there.
         what: String,
@@ -87,7 +87,7 @@ pub enum Error {
         folder.display()
     )]
     Busy {
-        /// The folder.
+        /// Path of the folder.
         folder: PathBuf,
     },
     /// A file or folder cannot be read or written.
@@ -129,13 +129,13 @@ pub enum Error {
     /// A run could not be played.
     #[error("table {table}, row {row}, run {run} (seed {seed}) could not be played")]
     Run {
-        /// The table.
+        /// Name of the table.
         table: String,
-        /// The row.
+        /// Name of the row.
         row: String,
         /// The index of the run.
         run: u32,
-        /// Its seed.
+        /// Seed of the run.
         seed: u64,
         /// The underlying error.
         source: BoxError,
@@ -145,7 +145,7 @@ pub enum Error {
         "the runs of table {table} are not recorded, so there is nothing to replay; choose another table"
     )]
     NoReplay {
-        /// The table.
+        /// Name of the table.
         table: String,
     },
     /// A file of runs has an invalid line.
@@ -165,7 +165,7 @@ pub enum Error {
         folder.display()
     )]
     NoChunks {
-        /// The folder.
+        /// Path of the folder.
         folder: PathBuf,
     },
     /// A chunk, or a folder already there, belongs to something else.
@@ -175,7 +175,7 @@ pub enum Error {
         folder.display()
     )]
     OtherChunk {
-        /// The folder.
+        /// Path of the folder.
         folder: PathBuf,
         /// The difference, in words.
         reason: String,
@@ -187,7 +187,7 @@ pub enum Error {
         folder.display()
     )]
     NotVerifiable {
-        /// The folder.
+        /// Path of the folder.
         folder: PathBuf,
         /// The difference, in words.
         reason: String,

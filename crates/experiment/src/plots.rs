@@ -1,4 +1,4 @@
-//! The box plots that every experiment gets.
+//! Makes the box plots that every experiment gets.
 
 use super::{Experiment, Metric, Run, Statistic, Table};
 use tolman_draw::{BoxGroup, BoxPlot, Dot, Figure, PaperMark, Series};
@@ -16,8 +16,8 @@ pub(super) fn names(experiment: &Experiment) -> Vec<String> {
     plotted(experiment).map(|(name, ..)| name).collect()
 }
 
-/// Returns what gets a box plot: its name, the table, the metric and the metric's field. Tables are
-/// numbered, because their names may be any text from a maze file.
+/// Returns every box plot to draw: its name, the table, the metric and the metric's field. Tables
+/// are numbered, because their names may be any text from a maze file.
 fn plotted(experiment: &Experiment) -> impl Iterator<Item = (String, &Table, &Metric, &str)> {
     (1_u32..)
         .zip(&experiment.tables)

@@ -18,7 +18,7 @@ pub enum ProgressEvent<'a> {
     },
     /// A line of a file of runs cannot be used.
     BrokenLine {
-        /// The file.
+        /// Path of the file.
         file: &'a Path,
         /// Number of the line, from 1.
         line: u64,
@@ -59,7 +59,7 @@ pub enum Remedy {
     PlayedAgain,
     /// The run is known from another line, or was not asked for.
     Ignored,
-    /// The line does not say which run it was. Any missing runs are played.
+    /// The line does not name its run. Any missing runs are played.
     MissingPlayed,
 }
 

@@ -1,4 +1,4 @@
-//! Records: what a run measures, as a struct with a column for each field.
+//! Defines records: the measurements of a run, as a struct with a column for each field.
 
 use core::any::type_name;
 
@@ -129,7 +129,7 @@ macro_rules! record {
     };
 }
 
-/// Returns an error with `why` unless a relation between the fields of a record `holds`.
+/// Checks a relation between the fields of a record: refuses it with `why` unless it `holds`.
 ///
 /// # Errors
 /// `why`.
@@ -157,7 +157,7 @@ pub enum FieldsError {
     NoField {
         /// Name of the field.
         field: String,
-        /// Its value.
+        /// Value that was given.
         value: String,
     },
     /// The fields are not those of the record.
@@ -239,7 +239,7 @@ mod tests {
             before: u32 => neither("throws before"),
             /// Whether it counts.
             counts: bool => higher("counted"),
-            /// What the player said.
+            /// Message of the player.
             said: Option<String> => neither("words"),
             /// The way of the dart.
             way: Vec<f64> => neither("way"),

@@ -161,8 +161,8 @@ impl Replays {
     }
 }
 
-/// Returns how many more runs of each row are likely to fit, if `done` of them took `bytes` bytes.
-/// The first is always tried.
+/// Returns the number of further runs of each row that are likely to fit, if `done` of them took
+/// `bytes` bytes. The first run is always tried.
 fn room(done: u32, bytes: usize, budget: usize) -> u32 {
     match done {
         0 => 1,

@@ -1,4 +1,4 @@
-//! One run: what identifies it, and its results.
+//! Identifies one run, and holds its results.
 
 use alloc::collections::BTreeMap;
 use core::any::type_name;
@@ -101,7 +101,7 @@ impl Fields {
         })
     }
 
-    /// The part of [`of`](Self::of) that is compiled once for all records.
+    /// Does the part of [`of`](Self::of) that is compiled once for all records.
     fn of_table(written: toml::Table) -> Result<Self, FieldsError> {
         let fields = written.into_iter().map(|(name, value)| {
             let field = Field::read(&value).ok_or_else(|| FieldsError::NoField {
@@ -113,7 +113,7 @@ impl Fields {
         fields.collect::<Result<_, _>>().map(Self)
     }
 
-    /// The part of [`record`](Self::record) that is compiled once for all records.
+    /// Does the part of [`record`](Self::record) that is compiled once for all records.
     fn table(&self) -> toml::Table {
         let fields = self.0.iter();
         fields

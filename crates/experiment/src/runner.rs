@@ -112,7 +112,7 @@ struct Runner<'a> {
     progress: &'a dyn Progress,
 }
 
-/// All runs of a folder, and what it took to play the missing ones.
+/// All runs of a folder, and the effort of playing the missing ones.
 struct Played {
     path: PathBuf,
     folder: Folder,

@@ -39,7 +39,7 @@ pub(super) fn read_line(line: &[u8]) -> Result<(Run, Intact), serde_json::Error>
     Ok((run, intact))
 }
 
-/// `Ok` if a line's values have their checksum; otherwise what is wrong.
+/// `Ok` if a line's values have their checksum; otherwise the fault.
 pub(super) type Intact = Result<(), String>;
 
 fn checksum_of(run: &Run) -> Result<String, serde_json::Error> {
@@ -57,12 +57,12 @@ struct Broken<'a> {
     file: &'a Path,
     line: u64,
     what: String,
-    /// Its run; `None` if the line does not say.
+    /// Run of the line; `None` if the line does not name it.
     key: Option<Key>,
 }
 
-/// Returns the usable runs of files. Reports every other line, and what happens to its run if
-/// `wanted` runs of each row are to be made. A missing file has no runs.
+/// Returns the usable runs of files. Reports every other line, and the fate of its run if `wanted`
+/// runs of each row are to be made. A missing file has no runs.
 ///
 /// If two lines contradict each other, neither is used: nothing says which is right.
 pub(super) fn read<'a>(
@@ -149,7 +149,7 @@ pub(super) fn is_wanted((table, row, run): Key, experiment: &Experiment, runs: u
     row.is_some_and(|row| run < row.runs_of(runs))
 }
 
-/// Returns the run of a line; or what is wrong with the line, and its run if known.
+/// Returns the run of a line; or the fault of the line, with its run if known.
 fn parse(
     line: &[u8],
     experiment: &Experiment,

@@ -190,8 +190,8 @@ impl<'a> Sample<'a> {
         tolman_stats::quantile(self.spread()?, 0.5).ok()
     }
 
-    /// Returns the numbers whose spread says something about the value; `None` for minimum, maximum
-    /// and sum.
+    /// Returns the numbers whose spread bounds the value's error; `None` for minimum, maximum and
+    /// sum.
     fn spread(&self) -> Option<&[f64]> {
         match self {
             Self::Numbers {

@@ -20,7 +20,7 @@ pub struct Settling {
     pub margin: f64,
     /// Numeric field: the quantity of which the margin is a share.
     pub scale: String,
-    /// Row whose scale counts.
+    /// Row from which the scale is taken.
     pub of: String,
 }
 
@@ -33,8 +33,8 @@ pub enum Reached {
     No,
 }
 
-/// Returns when the mean of curves settles at or below a limit, and whether it does. A curve that
-/// ends early counts as far as it goes.
+/// Returns the time at which the mean of curves settles at or below a limit, and whether it does. A
+/// curve that ends early counts up to its end.
 pub(super) fn settles(curves: &[&[f64]], step: f64, limit: f64) -> (f64, Reached) {
     let length = curves.iter().map(|curve| curve.len()).max().unwrap_or(0);
     let above = |at: &usize| {

@@ -50,7 +50,7 @@ impl Table {
         self
     }
 
-    /// Adds rows.
+    /// Adds rows below those that the table has.
     #[must_use]
     pub fn rows(mut self, rows: impl IntoIterator<Item = Row>) -> Self {
         self.rows.extend(rows);
@@ -96,7 +96,7 @@ impl Table {
         self
     }
 
-    /// Adds a metric, which summarizes fields of the table. What the metric leaves open is taken
+    /// Adds a metric, which summarizes fields of the table. Unset properties of the metric come
     /// from the column of its field.
     #[must_use]
     pub fn metric(mut self, mut metric: Metric) -> Self {
@@ -321,8 +321,8 @@ impl Row {
         self
     }
 
-    /// Sets which files are missing for its runs, and where to get them. Only the paper's values
-    /// are then shown.
+    /// Sets the files that its runs need and that are missing, with their source. Only the paper's
+    /// values are then shown.
     #[must_use]
     pub fn missing(mut self, what: impl Into<String>) -> Self {
         self.missing = Some(what.into());
@@ -336,15 +336,15 @@ impl Row {
         self
     }
 
-    /// Sets the number of its runs, if it is not the caller's number itself but follows from it.
+    /// Sets the number of its runs, if it follows from the caller's number.
     #[must_use]
     pub fn runs(mut self, runs: u32) -> Self {
         self.runs = Some(runs);
         self
     }
 
-    /// Sets a fixed number of runs: one for each of `things` that it is tried on, or as many as the
-    /// paper has.
+    /// Sets a fixed number of runs: one for each of `things` on which it is tried, or as many as in
+    /// the paper.
     #[must_use]
     pub fn run_each(mut self, things: u32) -> Self {
         self.is_fixed = true;
@@ -411,7 +411,7 @@ impl Metric {
         }
     }
 
-    /// Takes from the column what the metric leaves open.
+    /// Takes unset properties of the metric from its column.
     fn complete(&mut self, column: &Column) {
         self.better = self.better.or(Some(column.better));
         if self.definition.is_empty() {
@@ -569,7 +569,7 @@ impl Metric {
         self
     }
 
-    /// Sets the unit.
+    /// Sets the unit, which is shown after the title.
     #[must_use]
     pub fn unit(mut self, unit: impl Into<String>) -> Self {
         self.unit = unit.into();

@@ -9,7 +9,7 @@ use super::{
 /// Whether text is coloured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ink {
-    /// Plain text.
+    /// Text without colours.
     Plain,
     /// ANSI colours.
     Coloured,

@@ -16,7 +16,7 @@ use tolman_stats::{
 /// - Otherwise the runs *cannot tell*.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
-    /// The finding.
+    /// Result of the comparison with the paper.
     pub finding: Finding,
     /// Interval of ours minus the paper's, in the metric's unit; `None` if it is unknown. Half its
     /// width is the smallest difference that could have been detected.
@@ -54,7 +54,7 @@ pub enum Doubt {
     OneRun,
     /// The event that the metric waits for did not happen.
     NotReached,
-    /// Files that its runs need are missing: which, and where to get them.
+    /// Files that its runs need are missing: their names, and their source.
     NoData(String),
     /// No run was made.
     NoRuns,

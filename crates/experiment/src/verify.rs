@@ -21,13 +21,13 @@ use super::{
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Verification {
-    /// The folder.
+    /// Path of the folder.
     pub folder: PathBuf,
     /// Number of runs in the folder.
     pub runs: usize,
     /// Number of runs that were played again.
     pub played: usize,
-    /// Faults, one thing each; empty if there are none.
+    /// Faults, one each; empty if there are none.
     pub faults: Vec<String>,
 }
 

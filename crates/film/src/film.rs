@@ -27,7 +27,7 @@ pub struct Film {
     belief: Belief,
     nodes: BTreeMap<u32, MapNode>,
     edges: BTreeMap<(u32, u32), MapEdge>,
-    /// Edges that died before another one of the same ends was born.
+    /// Edges that ended before another one with the same ends began.
     gone: Vec<MapEdge>,
     places: TimeSeries,
     /// True position of the robot when the system first believed it was at a place, m.
@@ -142,7 +142,7 @@ impl Film {
         shown.note(step, &belief, site);
     }
 
-    /// Records where the robot truly is, if the system believes it is at a place.
+    /// Records the robot's true position, if the system believes that it is at a place.
     fn meet(&mut self, outing: &dyn Outing) {
         let likeliest = outing.belief().into_iter().next();
         if let (Some(guess), Some(pose)) = (likeliest, outing.path().last())

@@ -78,7 +78,7 @@ impl<'a> Recorder<'a> {
         self
     }
 
-    /// Records what the brain thought when it chose the action that begins after `step`.
+    /// Records the brain's thoughts when it chose the action that begins after `step`.
     fn overhear(&mut self, step: u32, words: &str, belief: &[Guess]) {
         if !words.is_empty() {
             self.thoughts.say(step, words);

@@ -18,8 +18,8 @@ const PATIENCE: u8 = 60;
 /// Cell and direction in which the mouse starts.
 const START: (Cell, Direction) = (Cell::new(0, 0), Direction::North);
 
-/// The mouse: what it knows and what it is doing. Directions to and from it are relative to its
-/// heading: north is ahead, east is to its right.
+/// The mouse: its knowledge and its task. Directions to and from it are relative to its heading:
+/// north is ahead, east is to its right.
 ///
 /// ```
 /// use tolman_firmware::{Command, Mouse, Sides};
@@ -80,8 +80,8 @@ pub enum Command {
         /// Duration of the fastest run, ms.
         run_ms: u16,
     },
-    /// Stay: the known walls do not say where the mouse is, or contradict what it sees. Carry it
-    /// back to the start.
+    /// Stay: the known walls do not determine the mouse's place, or contradict its readings. Carry
+    /// it back to the start.
     CarryBack,
     /// Stay: by the known walls, no way leads to the goal.
     GiveUp,
@@ -102,7 +102,7 @@ impl<'a> Mouse<'a> {
         })
     }
 
-    /// Returns the next command, given what the mouse sees on arrival in a cell.
+    /// Returns the next command, given the mouse's readings on arrival in a cell.
     ///
     /// # Errors
     /// Never, because the map has room for the maze.
@@ -195,7 +195,7 @@ fn explore<'a>(
     }
 }
 
-/// Returns the command that leads to where the poses that are still possible look different.
+/// Returns the command that leads to a place where the possible poses look different.
 fn look_around(poses: &mut PoseSet<MAZE>, patience: &mut u8, walls: &impl Walls) -> Command {
     let next = patience.checked_sub(1).zip(poses.next_drive(walls));
     next.map_or(Command::CarryBack, |(left, side)| {

@@ -19,7 +19,7 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// Returns the next field, which the message names `name`.
+    /// Returns the next field. `name` is its name in error messages.
     pub(crate) fn word(&mut self, name: &str) -> Result<&'a str, Wrong> {
         let missing = || (LogTrouble::Cut, format!("{name} is missing"));
         self.words.next().ok_or_else(missing)

@@ -25,7 +25,7 @@ use line::Entry;
 /// Maximum length of the text in a compressed file, bytes.
 const MOST_TEXT: u64 = 1 << 30;
 
-/// A pose graph in the plane, and what of its file could not be used.
+/// A pose graph in the plane, and the unusable parts of its file.
 ///
 /// ```
 /// use tolman_formats::G2o;
@@ -43,7 +43,7 @@ pub struct G2o {
     pub poses: Vec<G2oPose>,
     /// The edges, in the order of the file.
     pub edges: Vec<G2oEdge>,
-    /// Ids of the poses that stay where they are.
+    /// Ids of the poses that are fixed.
     pub fixed: Vec<u64>,
     /// Lines that were left out, in the order of the file.
     pub left_out: Vec<G2oFault>,
@@ -81,7 +81,7 @@ pub enum G2oError {
     /// No edge could be read.
     #[error("no EDGE_SE2 could be read{}; give a 2D pose graph as g2o writes it, plain or gzipped", of_first(.first))]
     NoEdges {
-        /// The first thing that was left out, if any.
+        /// First item that was left out; `None` if all were used.
         first: Option<Box<str>>,
     },
     /// The file is compressed, and no beginning of it can be unpacked.
@@ -212,7 +212,7 @@ impl Reading {
         })
     }
 
-    /// Returns the edges whose poses are there.
+    /// Returns the edges whose poses exist.
     fn sound_edges(&mut self) -> Vec<G2oEdge> {
         let mut sound = Vec::with_capacity(self.edges.len());
         for edge in core::mem::take(&mut self.edges) {

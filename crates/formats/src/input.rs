@@ -21,7 +21,7 @@ pub enum SourceError {
     /// The system cannot read it.
     #[error(transparent)]
     System(#[from] io::Error),
-    /// The file goes on for too long.
+    /// The file is too large.
     #[error("it has more than {most} bytes; give a smaller file")]
     TooLong {
         /// Maximum number of bytes that are read.

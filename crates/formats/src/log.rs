@@ -1,4 +1,4 @@
-//! Contents of a robot's log, from any program, and what was wrong with it.
+//! Holds the contents of a robot's log, from any program, and a report on its faults.
 
 mod entry;
 mod lines;

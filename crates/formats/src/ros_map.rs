@@ -80,8 +80,8 @@ pub enum RosMapError {
 }
 
 impl RosMap {
-    /// Reads the map whose YAML file lies at `path`. The picture is looked for beside it, if its
-    /// name does not begin at the root.
+    /// Reads the map whose YAML file lies at `path`. A relative path of the picture is relative to
+    /// the YAML file's folder.
     ///
     /// # Errors
     /// [`RosMapError`] with the file, and the line or byte at fault.

@@ -44,7 +44,7 @@ pub struct RosBag {
     pub report: LogReport,
 }
 
-/// A scan whose place is not known yet.
+/// A scan whose pose is not known yet.
 struct PlacelessScan {
     number: u64,
     topic: String,
@@ -62,7 +62,7 @@ struct Reader {
     odometry: Vec<LogOdometry>,
     /// The topics of the scans and of the odometry, once one was met.
     topics: [Option<String>; 2],
-    /// The frame whose pose the odometry tells.
+    /// Frame whose pose the odometry gives.
     base: String,
     mounts: Mounts,
 }
@@ -129,7 +129,7 @@ impl RosBag {
 }
 
 impl Reader {
-    /// Takes in all messages, up to the end or to what cannot be read.
+    /// Takes in all messages, up to the end or to the first that cannot be read.
     fn take_all(&mut self, mut source: impl Read) -> McapResult<()> {
         let options = LinearReaderOptions::default()
             .with_record_length_limit(LONGEST)
@@ -240,7 +240,7 @@ impl Reader {
         }
     }
 
-    /// Returns a scan with where the odometry had the robot then.
+    /// Returns a scan with the robot's pose by odometry at that time.
     fn placed(&mut self, placeless: PlacelessScan, way: &Trajectory) -> Option<LogScan> {
         let PlacelessScan {
             number,

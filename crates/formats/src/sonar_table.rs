@@ -1,4 +1,4 @@
-//! Readings of a ring of sonars with a word for what the robot did, one scan a line:
+//! Reads readings of a ring of sonars with a word for the robot's action, one scan per line:
 //! `r₁,…,rₙ,Word`, lengths in m.
 //!
 //! Source: the wall-following data of the UCI repository (A. Freire, G. Barreto and others, 2009),

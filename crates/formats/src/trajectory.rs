@@ -1,4 +1,4 @@
-//! Ways in time and what is known of them, as programs that judge them read and write them.
+//! Reads and writes trajectories and relations, in the form of programs that judge them.
 
 mod relations;
 mod tum;

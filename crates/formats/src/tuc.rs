@@ -1,5 +1,5 @@
-//! The SLAM data set of the Chemnitz University of Technology: places that looked alike, beside
-//! what wheels and gyroscope say.
+//! Reads the SLAM data set of the Chemnitz University of Technology: places that looked alike, and
+//! odometry of wheels and gyroscope.
 //!
 //! ```text
 //! odom2 time vx vy turn_rate var_vx var_vy var_turn_rate
@@ -47,7 +47,7 @@ enum TucLine {
 }
 
 impl TucDrive {
-    /// Reads a file of what the robot sensed, plain or gzipped.
+    /// Reads a file of the robot's readings, plain or gzipped.
     ///
     /// # Errors
     /// If there is no such file, or no line of it can be used.
@@ -66,7 +66,7 @@ impl TucDrive {
         Ok(drive)
     }
 
-    /// Reads a file of where the robot was. Its heading is not in these lines: all poses look east.
+    /// Reads a file of the robot's positions. These lines have no heading: all poses look east.
     ///
     /// # Errors
     /// If there is no such file, or no line of it can be used.

@@ -51,7 +51,7 @@ pub struct BarcodeSighting {
 const ROBOTS: u32 = 5;
 
 impl BarcodeSighting {
-    /// Returns whether it is of a landmark, which stays where it is.
+    /// Returns whether the subject is a landmark, which does not move.
     #[must_use]
     pub const fn is_landmark(&self) -> bool {
         self.subject > ROBOTS
@@ -102,7 +102,7 @@ impl UtiasRobot {
     }
 }
 
-/// Returns a barcode, and who wears it.
+/// Returns a barcode, and the subject that wears it.
 fn barcode(fields: &mut Fields<'_>) -> Result<(u32, u32), Wrong> {
     let subject = fields.count("the subject")?;
     Ok((fields.count("the barcode")?, subject))

@@ -9,7 +9,7 @@ use tolman_formats::geom::{Heading, Point, Pose};
 use tolman_formats::robot::{MapLink, MapPlace, MapView, TimedPose, Trajectory};
 use tolman_formats::{dot, graphml, node_link_json, route_geojson, tum};
 
-/// Three places in a row, and one that does not know where it lies.
+/// Returns a map of three places in a row, and one without a position.
 fn map() -> MapView {
     let place = |id, position| MapPlace {
         id,

@@ -21,7 +21,7 @@ mod tests {
 
     use super::floor_index;
 
-    /// What it stands for.
+    /// Returns the reference result, by libm.
     fn floor(value: f64) -> i32 {
         libm::floor(value) as i32
     }

@@ -71,7 +71,7 @@ impl PointBox {
         self.x.width().max(self.y.width())
     }
 
-    /// Returns whether all four bounds are there.
+    /// Returns whether all four bounds are finite.
     #[must_use]
     pub const fn is_bounded(self) -> bool {
         self.x.is_bounded() && self.y.is_bounded()

@@ -131,7 +131,7 @@ impl From<Isometry2<f64>> for Pose {
     }
 }
 
-/// Returns sin(x)/x, by its series where the quotient would lose digits.
+/// Returns sin(x)/x, by its series if the quotient would lose digits.
 fn sinc(x: f64) -> f64 {
     if x.abs() < 1e-4 {
         let square = x * x;

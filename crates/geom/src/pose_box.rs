@@ -108,8 +108,8 @@ impl PoseBox {
 
     /// Returns the box of all poses that both allow, with headings up to full circles. `None` if
     /// they contradict each other: then a bound was broken, or the two are not estimates of the
-    /// same pose. Where wide headings agree in two parts of the circle, what lies between them is
-    /// in the result as well.
+    /// same pose. If wide headings agree in two parts of the circle, the result also includes the
+    /// part between them.
     #[must_use]
     pub fn intersection(self, other: Self) -> Option<Self> {
         Some(Self::new(

@@ -17,7 +17,7 @@ fn interval(low: f64, high: f64) -> Interval {
     Interval::new(low, high).unwrap()
 }
 
-/// Returns how many doubles lie between two, at most.
+/// Returns the number of steps, from one double to the next, that lead from `a` to `b`.
 fn steps(a: f64, b: f64) -> u64 {
     let ordered = |value: f64| {
         let bits = value.to_bits().cast_signed();
@@ -79,7 +79,8 @@ prop_compose! {
     }
 }
 
-/// Sound, as far as f64 can tell: the exact result lies within a rounding of the computed one.
+/// Returns whether `result` holds the exact value, which lies within a rounding of the computed
+/// one.
 fn holds(result: Interval, rounded: f64) -> bool {
     result.low() <= rounded.next_up() && rounded.next_down() <= result.high()
 }
@@ -374,7 +375,7 @@ fn missing_bounds_stay_missing() {
     assert!(lost.inverse().contains(Pose::IDENTITY));
 }
 
-/// 2²⁰ quarter turns are told apart; there is nothing to know of sines farther out.
+/// Checks that 2²⁰ quarter turns are told apart. Nothing is known of sines farther out.
 #[test]
 fn sines_of_many_turns_are_known_up_to_a_limit() {
     for angle in [1.647e6, -1.647e6] {

@@ -87,7 +87,7 @@ fn measure<const N: usize>(folder: &str, config: &SpeedRunConfig) -> Vec<String>
         .collect()
 }
 
-/// Returns what a maze took, as a line of JSON.
+/// Returns a maze's least and median times, µs, as a line of JSON.
 fn line(name: &str, side: usize, number: usize, all: &[(&str, Timed)]) -> String {
     let mut line = serde_json::json!({ "maze": name, "side": side });
     for (what, timed) in all {
@@ -181,7 +181,7 @@ fn explore<const N: usize>(named: &Named, times: &SpeedRunTimes<N>) -> f64 {
     }
 }
 
-/// Returns where they come from, and the mazes by name.
+/// Returns the origin of the mazes, in words, and the mazes by name.
 fn mazes(folder: &str, side: u16) -> (&'static str, Vec<Named>) {
     if let Some(folder) = std::env::var_os("SPEED_RUN_MAZES") {
         let fits = |named: &Named| {

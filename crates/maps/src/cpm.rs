@@ -8,14 +8,14 @@
 //!   is one of them;
 //! - a [`Traversal`] is what a robot observed along one fragment, between two [`Sighting`]s of
 //!   junctions, dead ends or landmarks;
-//! - a [`Turn`] (Δ) is what it did at a junction;
+//! - a [`Turn`] (Δ) is its turn at a junction;
 //! - a [`CpMapper`] takes both in, as a [`CpMapperConfig`] says;
 //! - the [`CpMap`] (ℳ) has the fragments and junctions; similar fragments, by [`FragmentMatching`],
 //!   are one;
 //! - a [`Plan`] is a way through it;
-//! - a [`Localizer`] finds where on some maps a robot is that was put somewhere;
+//! - a [`Localizer`] finds a robot on some maps after it was put down;
 //! - a `MapFile` (feature `serde`) keeps a map with its dictionary;
-//! - [`Environments`] recall the path and the environment that a sequence belongs to.
+//! - [`Environments`] recall the path and the environment of a sequence.
 //!
 //! ```
 //! use tolman_maps::cpm::{

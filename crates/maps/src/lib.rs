@@ -1,4 +1,4 @@
-//! What a robot has learned of its surroundings, one module per kind of map.
+//! Maps that a robot learns of its surroundings, one module per kind of map.
 //!
 //! - [`wall_map`]: the walls of a grid maze: unknown, open or standing. Fixed size, no allocation.
 //! - [`wall_belief`]: the same walls for a mouse whose sensors and wheels err, and where on them it

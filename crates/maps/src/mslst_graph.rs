@@ -5,8 +5,8 @@
 //! and the search of *Path-Finding*.
 //!
 //! A [`GraphMapper`] builds the [`MslstGraph`] while the robot wanders. [`localize`] finds the node
-//! that fits what the robot has sensed and done lately. [`MslstGraph::path_to_destination`] returns
-//! the way on from there.
+//! that fits the robot's latest states and actions. [`MslstGraph::path_to_destination`] returns the
+//! way on from there.
 //!
 //! ```
 //! use tolman_maps::mslst_graph::{localize, GraphMapper, Memory, NodeZone};

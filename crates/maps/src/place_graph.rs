@@ -5,10 +5,10 @@
 //! "relative to the previous point", features in place of pixels, and a map that corrects the
 //! odometry. In the order data flows:
 //!
-//! 1. An [`Outline`] is what a snapshot shows of the things round the robot. It has the points
-//!    where they stand on the floor, with their colours, and the arcs on which sonars heard them.
-//! 2. [`WheelError`] is what the map has found out about the wheels, and predicts where the robot
-//!    has come to.
+//! 1. An [`Outline`] holds the things round the robot in a snapshot: points where they stand on the
+//!    floor, with their colours, and arcs on which sonars heard them.
+//! 2. [`WheelError`] is the map's estimate of the wheels' errors, by which it predicts the robot's
+//!    pose.
 //! 3. The prediction is fitted to the map: the surfaces that all places have seen.
 //! 4. A [`PlaceGraph`] keeps the places, each with its outline, in a
 //!    [`PoseGraph`](crate::pose_graph::PoseGraph) whose closures are the places that a fit has

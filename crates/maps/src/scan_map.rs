@@ -6,15 +6,16 @@
 //! 1. A [`ScanMap`] takes in each [advance](Advance) of the robot with the scan at its end. It fits
 //!    the scan to the known walls and so corrects the position. Then it draws new walls on a
 //!    [`WallGrid`], and finds the place or adds it.
-//! 2. [`Clearings`] are where the robot can stand and has not been:
-//!    [where the map has gaps](WayToGap).
+//! 2. [`Clearings`] are the ground where the robot can stand and has not been: [where the map has
+//!    gaps](WayToGap).
 //! 3. A [`ScanChart`] is the map once learning is over: the [ground](GroundPlan), two bits a cell,
 //!    the places and the links. A file holds its [parts](ChartParts).
 //! 4. A [`CorridorMap`] has the places where corridors meet or end, and the ways between them.
 //! 5. [`Standpoints`] are a lattice of positions on it, with the view from each.
-//! 6. A [`StandpointBelief`] is the belief of a robot that was put down somewhere about its place.
+//! 6. A [`StandpointBelief`] is the belief of a robot, put down anywhere, about its position.
 //!
-//! The frame's axes are the compass's. Positions are in metres from where the robot was put down.
+//! The frame's axes are the compass's. Positions are in metres from the point where the robot was
+//! put down.
 
 mod belief;
 mod branches;

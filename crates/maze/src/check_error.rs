@@ -24,7 +24,7 @@ pub enum CheckError {
         grid.width().saturating_sub(1), grid.height().saturating_sub(1)
     )]
     StartOutside {
-        /// The start as given.
+        /// Start that was given.
         start: Cell,
         /// The size of the maze.
         grid: Grid,
@@ -57,7 +57,7 @@ pub enum CheckError {
 }
 
 impl CheckError {
-    /// Returns the cell to look at, if it is one of the maze.
+    /// Returns the cell with the fault, or `None` if the fault concerns no single cell.
     pub(crate) const fn cell(self) -> Option<Cell> {
         match self {
             Self::OpenBorder { cell, .. } => Some(cell),

@@ -56,8 +56,8 @@ impl Grid {
     /// robot's maze, and low enough that a hostile file cannot ask for much memory.
     pub const MAX_SIDE: u16 = 1024;
 
-    /// Returns a grid of `width` columns and `height` rows. A side longer than 46340 is cut to
-    /// that, because 32 bits cannot number the walls of more.
+    /// Returns a grid of `width` columns and `height` rows. A longer side than 46340 is cut to
+    /// that, because 32 bits could not number its walls.
     #[must_use]
     pub const fn new(width: u16, height: u16) -> Self {
         Self {

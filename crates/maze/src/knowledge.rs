@@ -36,7 +36,7 @@ impl Knowledge {
     }
 }
 
-/// A maze as far as it is known: all that a planner or a search asks of a map.
+/// The known part of a maze: everything that a planner or a search asks of a map.
 ///
 /// A [`Maze`](crate::Maze) is one in which everything is known. Beyond the grid, and on its border,
 /// every wall stands.
@@ -68,7 +68,7 @@ pub trait Walls {
     /// Returns size and wall numbering.
     fn grid(&self) -> Grid;
 
-    /// Returns what is known of the `direction` side of `cell`; the same from both sides of a wall.
+    /// Returns the knowledge of the `direction` side of `cell`; the same from both sides of a wall.
     fn knowledge(&self, cell: Cell, direction: Direction) -> Knowledge;
 }
 

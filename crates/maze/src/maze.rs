@@ -4,7 +4,7 @@ use core::fmt;
 
 use crate::{Cell, CheckError, Direction, Grid, Wall, formats};
 
-/// A maze whose every wall is known: the ground truth of a world.
+/// A maze in which every wall is known: the ground truth of a world.
 ///
 /// Cells handed to its methods must lie on its grid; beyond the grid every wall stands.
 ///
@@ -61,7 +61,7 @@ impl Maze {
         maze
     }
 
-    /// Returns a maze in which every wall stands: what generators carve from.
+    /// Returns a maze in which every wall stands, from which generators carve.
     #[must_use]
     pub fn solid(grid: Grid) -> Self {
         let mut maze = Self::open(grid);
@@ -289,8 +289,8 @@ impl Maze {
         }
     }
 
-    /// Returns the part of [`Maze::check`] that every file must hold: cells, closed border, marks
-    /// on the grid.
+    /// Checks the part of [`Maze::check`] that every file must hold: cells, closed border, marks on
+    /// the grid.
     pub(crate) fn check_structure(&self) -> Result<(), CheckError> {
         if self.grid.cell_count() == 0 {
             return Err(CheckError::NoCells);

@@ -86,7 +86,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Drives, and returns the true poses and what the wheels said between them.
+/// Drives through the rooms. Returns the true poses and the odometry edges between them.
 fn drive() -> Result<(Vec<Pose>, Vec<G2oEdge>), Box<dyn Error>> {
     let world = World::from_json(include_str!("../mazes/worlds/rooms.json"))?;
     let mut config = LaserPioneerConfig::noiseless();

@@ -33,7 +33,7 @@ pub(crate) const PROTOTYPES: Tolerance = Tolerance::factor(
     "they vary by a quarter from walk to walk, and follow parameters that no source gives",
 );
 
-/// A count of which one more is a different result.
+/// Tolerance of counts for which one more is a different result.
 pub(crate) const COUNTED: Tolerance =
     Tolerance::absolute(0.5, "the next number is another outcome");
 

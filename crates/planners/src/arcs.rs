@@ -47,7 +47,7 @@ impl Arcs {
         Self { first, arcs }
     }
 
-    /// Returns the same graph with every arc turned round. O(nodes + arcs).
+    /// Returns the same graph with every arc reversed. O(nodes + arcs).
     #[must_use]
     pub fn reversed(&self) -> Self {
         let mut list = Vec::with_capacity(self.arcs.len());

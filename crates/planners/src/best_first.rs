@@ -6,7 +6,7 @@ use core::cmp::Reverse;
 use crate::Graph;
 use crate::path::trace_back;
 
-/// A path to a goal, and what it took to find it.
+/// A path to a goal, and the effort of finding it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Found {
     /// Nodes from the source to a goal, both ends included.
@@ -76,7 +76,7 @@ pub(crate) struct Searched {
     /// Least cost so far of each node, and the node before it on that way. A source comes from
     /// itself.
     pub(crate) reached: Vec<Option<(u32, u32)>>,
-    /// The first goal that was expanded, and what it cost.
+    /// First goal that was expanded, and its cost.
     goal: Option<(u32, u32)>,
     expanded: u32,
 }

@@ -59,7 +59,7 @@ fn remove_strings<A: Copy + PartialEq>(path: &mut Vec<A>, opposite: &impl Fn(&A)
     }
 }
 
-/// Returns how often `action` stands in a row from `start` on.
+/// Returns the number of times that `action` stands in a row from `start` on.
 fn run<A: PartialEq>(path: &[A], start: usize, action: &A) -> usize {
     path[start..]
         .iter()

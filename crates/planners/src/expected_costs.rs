@@ -4,8 +4,8 @@ use alloc::vec::Vec;
 
 use crate::{Arcs, costs_from};
 
-/// Decisions whose results are random: from each state some actions, each with what it
-/// costs and where it may lead.
+/// Decisions with random results. Each state has some actions, each with a cost and its possible
+/// ends.
 #[derive(Clone, Debug, Default)]
 pub struct Decisions {
     actions: usize,
@@ -33,8 +33,8 @@ impl Decisions {
     }
 
     /// Adds the next action of the present state, or the first one of the next state. `cost` is its
-    /// cost and `ends` the states that it may lead to, each with its probability. What they lack to
-    /// one counts as staying.
+    /// cost and `ends` the states that it may lead to, each with its probability. The missing
+    /// probability to 1 counts as staying.
     pub fn add(&mut self, cost: f64, ends: impl IntoIterator<Item = (u32, f64)>) {
         let ends = ends.into_iter();
         self.ends
@@ -147,8 +147,8 @@ pub fn expected_costs(
 /// Parts of a cost that the first guess counts in.
 const PARTS: f32 = 64.0;
 
-/// Returns the states that can lead to a goal, the nearest first, if every action ended as well as
-/// it can; and what that costs.
+/// Returns the states that can lead to a goal, the nearest first, each with its cost if every
+/// action has its best result.
 fn if_all_goes_well(decisions: &Decisions, goals: &[u32]) -> Vec<(u32, f32)> {
     let mut arcs = Vec::new();
     let mut first = 0;

@@ -1,4 +1,4 @@
-//! Search on graphs, over anything that can list a node's neighbours.
+//! Searches graphs, over anything that can list a node's neighbours.
 //!
 //! A [`Graph`] numbers its nodes from 0 and lists the arcs that leave one. The searches know
 //! nothing of maps, mazes or robots:

@@ -34,9 +34,9 @@ pub struct Passages<const N: usize> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum Unknown {
-    /// Open: what can be hoped for. No way in the maze is shorter than the shortest hoped for.
+    /// Open: no way in the maze is shorter than the shortest way with these passages.
     Open,
-    /// Closed: what is certain.
+    /// Closed: every way with these passages exists in the maze.
     Closed,
 }
 
@@ -64,7 +64,7 @@ pub(crate) fn open_sides<const N: usize>(
 }
 
 impl<const N: usize> Passages<N> {
-    /// Returns the passages of a maze as far as it is known. O(N²).
+    /// Returns the known passages of a maze. O(N²).
     ///
     /// # Errors
     /// If the maze has more than `N` columns or rows.
@@ -95,7 +95,7 @@ impl<const N: usize> Passages<N> {
             .is_some_and(|sides| sides >> direction.index() & 1 == 1)
     }
 
-    /// Returns whether everything that is open here is open in `other` too.
+    /// Returns whether everything open here is also open in `other`.
     #[must_use]
     pub fn is_within(&self, other: &Self) -> bool {
         let (ours, theirs) = (self.sides(), other.sides());

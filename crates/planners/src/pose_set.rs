@@ -46,8 +46,8 @@ pub struct PoseSet<const N: usize> {
     grid: Grid,
     /// Possible cells by heading, then y; bit x.
     cells: [[u32; N]; 4],
-    /// The pose from whose point of view the next drive is planned, as long as it is one of the
-    /// set. Sticking to it keeps the mouse from driving to and fro.
+    /// Pose for which the next drive is planned, as long as it is in the set. Sticking to it keeps
+    /// the mouse from driving to and fro.
     guess: Option<(Cell, Direction)>,
 }
 
@@ -56,7 +56,7 @@ pub struct PoseSet<const N: usize> {
 pub enum PoseKnowledge {
     /// Only here.
     Found {
-        /// The cell.
+        /// Cell of the mouse.
         cell: Cell,
         /// Heading of the mouse.
         heading: Direction,
@@ -109,7 +109,7 @@ impl<const N: usize> PoseSet<N> {
         Self { grid, cells, guess }
     }
 
-    /// Takes in whether the mouse sees its cell open, or a wall there, to `side`. Unknown walls
+    /// Takes in whether the mouse sees an opening or a wall to `side` of its cell. Unknown walls
     /// exclude nothing. O(N²).
     pub fn see(&mut self, walls: &impl Walls, side: Direction, is_open: bool) {
         let contrary = Knowledge::of_standing(is_open);
@@ -250,8 +250,8 @@ struct Way {
     side: Direction,
 }
 
-/// Returns where a mouse is that began at `other`, when one that began at `first` and drove the
-/// same way is in `cell`.
+/// Returns the cell of a mouse that began at `other`, when one that began at `first` and drove the
+/// same way is in `cell`. `None` if it lies west or south of the grid.
 fn twin(cell: Cell, first: (Cell, Direction), other: (Cell, Direction)) -> Option<Cell> {
     let east = i32::from(cell.x) - i32::from(first.0.x);
     let north = i32::from(cell.y) - i32::from(first.0.y);

@@ -7,7 +7,8 @@ const STATES: u32 = 12;
 const ACTIONS: usize = 3;
 const HOPELESS: f32 = 500.0;
 
-/// Of each state and action: cost, end, other end, and how likely the first is, percent.
+/// Returns the choices of every state: cost, end, other end, and the probability of the first end,
+/// percent.
 fn choices() -> impl Strategy<Value = Vec<(u32, u32, u32, u32)>> {
     let choice = (1..9_u32, 0..STATES, 0..STATES, 1..=100_u32);
     prop::collection::vec(choice, STATES as usize * ACTIONS)

@@ -67,7 +67,8 @@ impl Seen {
         }
     }
 
-    /// Explores, and returns the stops on the way, each as column and row, and the last decision.
+    /// Explores the maze. Returns the stops on the way, each as column and row, and the last
+    /// decision.
     fn explored(
         mut self,
         mut decide: impl FnMut(&Self, Cell) -> MoveDecision,
@@ -89,7 +90,7 @@ impl Seen {
         (way, MoveDecision::Stuck)
     }
 
-    /// Fewest steps from the start to a goal, with all walls known.
+    /// Returns the fewest steps from the start to a goal, with all walls known.
     fn fewest(&self) -> u16 {
         let passages = Passages::<8>::new(&self.maze, Unknown::Closed).unwrap();
         let map = MoveMap::new(&passages, self.maze.goals().iter().copied());

@@ -31,7 +31,7 @@ impl Walls for Sketch {
 }
 
 impl Sketch {
-    /// Nothing known but the border.
+    /// Returns walls of which only the border is known.
     fn dark(grid: Grid) -> Self {
         let mut sketch = Self {
             grid,
@@ -208,8 +208,8 @@ proptest! {
     }
 }
 
-/// Explores, has the result checked and says how long the run takes, or `None` if the explorer is
-/// stuck.
+/// Explores and has the result checked. Returns the duration of the run, or `None` if the explorer
+/// is stuck.
 fn explore<const N: usize>(
     maze: &Maze,
     home: Cell,

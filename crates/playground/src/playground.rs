@@ -9,7 +9,7 @@ use tolman_replay::EncodeError;
 
 use crate::{Session, Sketch};
 
-/// Reason why the playground cannot do what is asked.
+/// Reason why the playground cannot fulfil a request.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PlaygroundError {
@@ -33,7 +33,7 @@ pub enum PlaygroundError {
         /// The name that was given.
         name: String,
     },
-    /// System, robot and maze do not go together, or the robot cannot stand somewhere.
+    /// System, robot and maze do not fit together, or the robot cannot stand at a position.
     #[error("{0}: {source}", source = root(.0))]
     Contest(#[from] ContestError),
     /// A cell has no way out.
@@ -44,7 +44,7 @@ pub enum PlaygroundError {
     Replay(#[from] EncodeError),
 }
 
-/// Returns what is at the bottom of an error.
+/// Returns the message of an error's innermost source.
 fn root(error: &dyn core::error::Error) -> String {
     let mut error = error;
     while let Some(source) = error.source() {
@@ -64,8 +64,8 @@ pub struct SystemChoice {
     pub is_paper: bool,
 }
 
-/// Sends systems into mazes, and keeps what they learned before: CPM's common patterns, which take
-/// a second.
+/// Sends systems into mazes, and keeps their prior knowledge: CPM's common patterns, which take a
+/// second to learn.
 #[derive(Debug, Default)]
 pub struct Playground {
     schooling: Schooling,

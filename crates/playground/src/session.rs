@@ -26,7 +26,7 @@ pub struct Session {
 pub enum SessionTask {
     /// The system learns the maze.
     Explore,
-    /// The system finds out where it was put down.
+    /// The system localizes after it was put down.
     Localize,
     /// The system drives to the goal.
     Home,
@@ -36,10 +36,10 @@ pub enum SessionTask {
 /// actions.
 const EVERY: u32 = 4;
 
-/// A session at a moment.
+/// State of a session.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SessionState {
-    /// The task.
+    /// Task in progress, or the last one.
     pub task: SessionTask,
     /// Whether the task is under way.
     pub is_busy: bool,
@@ -91,7 +91,7 @@ impl Session {
     }
 
     /// Lifts the robot and puts it down in the cell at a position in the world, m. The system knows
-    /// that it was lifted, not where it is, and begins to find out.
+    /// that it was lifted, but not its new place, and begins to localize.
     ///
     /// # Errors
     /// [`PlaygroundError`] if the robot cannot stand there.
@@ -139,7 +139,7 @@ impl Session {
         self.contest.outing()
     }
 
-    /// Returns the run so far as the replay player takes it. O(steps + map).
+    /// Returns the run so far in the replay player's form. O(steps + map).
     ///
     /// # Errors
     /// [`PlaygroundError::Replay`] if it cannot be written.
@@ -178,7 +178,7 @@ impl Session {
         }
     }
 
-    /// Returns what is happening.
+    /// Returns the caption for the task under way.
     fn under_way(&self, places: usize, guesses: usize) -> String {
         let name = self.contestant.name();
         match self.task {

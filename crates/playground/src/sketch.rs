@@ -6,7 +6,7 @@ use tolman_maze::{Cell, Direction, Format, Grid, Maze, MazeFile};
 
 use crate::PlaygroundError;
 
-/// A maze under the hand of who draws it, which need not have a way to the goal yet.
+/// A maze that a visitor is drawing, which need not have a way to the goal yet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sketch {
     pub(crate) name: String,
@@ -99,7 +99,7 @@ impl Sketch {
         }
     }
 
-    /// Moves the start, from where the robot looks along an open way if there is one.
+    /// Moves the start. The robot looks along an open way if there is one.
     pub fn set_start(&mut self, cell: Cell) {
         if self.maze.grid().contains(cell) {
             let way = self.maze.neighbours(cell).next();

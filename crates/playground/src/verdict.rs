@@ -1,4 +1,4 @@
-//! What came of a task, in words.
+//! Describes the result of a task in words.
 
 use serde::Serialize;
 use tolman_arena::contest::{Claim, FoundOut, LearnRecord, LocateOutcome, WayHome};

@@ -4,8 +4,7 @@ use std::io;
 use pyo3::PyErr;
 use pyo3::exceptions::PyValueError;
 
-/// Returns a `ValueError` that names the parameter and says what is wrong with it, with all
-/// underlying reasons.
+/// Returns a `ValueError` that names the parameter and its fault, with all underlying reasons.
 pub(crate) fn refused(parameter: &str, error: &(dyn Error + 'static)) -> PyErr {
     PyValueError::new_err(format!("{parameter}: {}", reasons(error)))
 }

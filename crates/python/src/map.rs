@@ -93,7 +93,7 @@ impl PyMap {
     }
 }
 
-/// Returns what the map knows of a place.
+/// Returns the attributes of a place: `position` and `landmark`, each only if it is known.
 fn told<'py>(py: Python<'py>, place: &MapPlace) -> PyResult<Bound<'py, PyDict>> {
     let known = PyDict::new(py);
     if let Some(position) = place.position {

@@ -29,7 +29,7 @@ enum Start {
 
 #[pymethods]
 impl PyRobot {
-    /// Puts a robot into a maze: where the maze says (`"marked"`), anywhere (`"random"`) or at (x,
+    /// Puts a robot into a maze: at the maze's start (`"marked"`), anywhere (`"random"`) or at (x,
     /// y, heading). `seed` seeds all random numbers; without `noise`, motors and sensors are
     /// perfect.
     #[new]

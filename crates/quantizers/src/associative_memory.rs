@@ -44,9 +44,9 @@ pub struct AssociativeMemory<S: Scalar> {
 /// One recalled answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recall<S> {
-    /// The unit that holds the association, and how far its part is from what was asked for.
+    /// Unit that holds the association, with the distance of its part from the query.
     pub unit: Nearest<S>,
-    /// The other part: what the memory answers.
+    /// Other part of the association: the memory's answer.
     pub values: Vec<S>,
 }
 
@@ -127,7 +127,7 @@ impl<S: Scalar> AssociativeMemory<S> {
     }
 
     /// Returns the response to `start`, the response to that, and so on, until no key lies within
-    /// `reach` of a response. A memory of a ring goes round forever.
+    /// `reach` of a response. A memory of a cycle goes round forever.
     ///
     /// # Errors
     /// If `start` is invalid, responses have another number of features than keys, or nothing was
@@ -209,7 +209,7 @@ impl<S: Scalar> AssociativeMemory<S> {
         Ok(recalls)
     }
 
-    /// Returns the whole vector with nothing but the asked part, and the mask that lets it through.
+    /// Returns a whole vector with only the given part, and the mask that selects it.
     fn query(&self, part: Part, asked: &[S]) -> Result<(Vec<S>, Vec<bool>), InputError> {
         self.check_size(part, asked)?;
         let dimension = self.network().dimension();
@@ -219,7 +219,7 @@ impl<S: Scalar> AssociativeMemory<S> {
         Ok((input, mask))
     }
 
-    /// Returns a part of a unit; nothing if there is no such unit.
+    /// Returns a part of a unit; empty if there is no such unit.
     fn part(&self, part: Part, id: UnitId) -> impl Iterator<Item = S> + '_ {
         let features = self.features(part);
         let values = self.network().prototype(id).into_iter().flatten();

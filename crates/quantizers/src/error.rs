@@ -148,15 +148,15 @@ pub(crate) fn within(
 
 /// A unit that is not, or no longer, part of the network.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
-#[error("the network has no unit {0}: it was removed, or never there")]
+#[error("the network has no unit {0}: give the id of a present unit")]
 pub struct UnknownUnit(pub UnitId);
 
-/// Reason why what was saved cannot be resumed.
+/// Reason why a saved network cannot be resumed.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SnapshotError {
     /// The file is something else.
-    #[error("this is {found:?} where {expected:?} was expected")]
+    #[error("the format is {found:?}, expected {expected:?}: give a saved network of this kind")]
     WrongFormat {
         /// Format that is read here.
         expected: &'static str,
@@ -202,15 +202,15 @@ pub enum SnapshotError {
         next_id: u32,
     },
     /// An edge has an end that is not a unit, joins a unit to itself or stands there twice.
-    #[error("the edge {}–{} has an end that is not a unit, or joins a unit to itself, or comes twice", .ends.0, .ends.1)]
+    #[error("the edge {}–{} has an end that is not a unit, or joins a unit to itself, or comes twice: remove it", .ends.0, .ends.1)]
     BadEdge {
-        /// The ends.
+        /// Ids of the units at its ends.
         ends: (UnitId, UnitId),
     },
-    /// A list has another length than what it belongs to.
-    #[error("{found} {what} where {expected} were expected")]
+    /// A list has the wrong length.
+    #[error("there are {found} {what}, expected {expected}: save the network again")]
     WrongCount {
-        /// Kind of thing that is listed.
+        /// Kind of the list's items.
         what: &'static str,
         /// Number that there must be.
         expected: usize,
@@ -219,7 +219,7 @@ pub enum SnapshotError {
     },
 }
 
-/// Refuses a list of another length than what it belongs to.
+/// Refuses a list of the wrong length.
 pub(crate) fn check_count(
     what: &'static str,
     expected: usize,

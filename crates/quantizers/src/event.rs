@@ -1,11 +1,11 @@
-//! What happens to the graph, for those who built something on it.
+//! Records the changes of the graph, for structures that depend on it.
 
 use alloc::vec::Vec;
 
 use crate::UnitId;
 
 /// A change of the graph. Replayed in order onto an empty graph, the events since the network was
-/// empty give the network's graph; how units move is not told.
+/// empty give the network's graph; the motion of units is not recorded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Event {
@@ -13,7 +13,7 @@ pub enum Event {
     Inserted {
         /// The unit.
         id: UnitId,
-        /// The two units it was put between, if it was not made of an input.
+        /// Units between which it was put; `None` if it was made of an input.
         between: Option<(UnitId, UnitId)>,
     },
     /// A unit went. Its edges went just before.

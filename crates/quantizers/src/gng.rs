@@ -88,8 +88,7 @@ impl<S: Scalar> Gng<S> {
         })
     }
 
-    /// Puts units where the caller wants them before the first input, each joined to the one
-    /// before.
+    /// Puts units at given positions before the first input, each joined to the one before.
     ///
     /// # Errors
     /// If there are fewer than two units, one is not a valid input, or the network is not empty.
@@ -130,10 +129,10 @@ impl<S: Scalar> Gng<S> {
         self.steps
     }
 
-    /// Makes one unit part of another, for a caller who found out that both mean the same. The unit
-    /// that stays keeps its prototype, takes over the edges with their ages, and adds the other's
-    /// error and utility to its own. If they had only each other, it is joined to the unit nearest
-    /// to it. To merge a unit with itself does nothing.
+    /// Merges one unit into another, for a caller who knows that both mean the same. The unit that
+    /// stays keeps its prototype, takes over the edges with their ages, and adds the other's error
+    /// and utility to its own. If they had only each other, it is joined to the unit nearest to it.
+    /// Merging a unit with itself does nothing.
     ///
     /// # Errors
     /// If one of the units is not there.
@@ -185,7 +184,7 @@ impl<S: Scalar> Gng<S> {
         self.decay.value(sum) / self.network.len().max(1) as f64
     }
 
-    /// Returns a unit joined to another.
+    /// Adds a unit at `prototype`, joined to `other`, and returns its slot.
     fn seed(&mut self, prototype: &[S], other: Option<usize>) -> usize {
         let slot = self.network.insert(prototype);
         self.sums.push(Sums::default());
@@ -195,7 +194,7 @@ impl<S: Scalar> Gng<S> {
         slot
     }
 
-    /// Returns what to do while there are fewer than two units.
+    /// Learns from an input while there are fewer than two units: each new point makes a unit.
     #[cold]
     fn begin(&mut self, input: &[S], best: Best<S>) -> NearestTwo<S> {
         let met = self.network.found(best.first);

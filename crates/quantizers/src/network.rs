@@ -66,7 +66,7 @@ pub struct Network<S> {
     events: Events,
     search: UnitSearch,
     kernels: Kernels,
-    /// The index, where it is used.
+    /// Index for searches, if one is used.
     tree: Option<Tree<S>>,
     /// The new numbers of slots while gaps are closed; kept so as not to allocate.
     renumbered: Vec<u32>,
@@ -120,7 +120,7 @@ impl<S: Scalar> Network<S> {
         self.len == 0
     }
 
-    /// Returns whether the unit is there.
+    /// Returns whether the unit exists.
     pub fn contains(&self, id: UnitId) -> bool {
         self.slot(id).is_ok()
     }
@@ -183,8 +183,8 @@ impl<S: Scalar> Network<S> {
         self.named(self.search(input))
     }
 
-    /// Returns the two units nearest to `input` in the features whose `mask` is true. The others of
-    /// `input` are not read, and may be anything. Weights hold as ever.
+    /// Returns the two units nearest to `input` in the features whose `mask` is true. The other
+    /// features of `input` are not read, and may have any value. Weights apply as usual.
     ///
     /// # Errors
     /// As [`nearest`](Self::nearest), or if the mask has the wrong size or leaves nothing to
@@ -203,7 +203,7 @@ impl<S: Scalar> Network<S> {
         self.named(best)
     }
 
-    /// Returns where the unit is until gaps are closed.
+    /// Returns the slot of a unit, which holds until gaps are closed.
     pub(crate) fn slot(&self, id: UnitId) -> Result<usize, UnknownUnit> {
         match self.ids.binary_search(&id) {
             Ok(slot) if self.live[slot] => Ok(slot),
@@ -219,7 +219,7 @@ impl<S: Scalar> Network<S> {
     }
 }
 
-/// What quantizers do to the graph.
+/// The operations of quantizers on the graph.
 impl<S: Scalar> Network<S> {
     pub(crate) fn events(&mut self) -> &mut Events {
         &mut self.events
@@ -299,7 +299,7 @@ impl<S: Scalar> Network<S> {
         })
     }
 
-    /// Returns a unit at distance 0: the one that was made of the input.
+    /// Returns a unit at distance 0: one that was made of the input.
     pub(crate) fn at(&self, slot: usize) -> Nearest<S> {
         Nearest {
             id: self.ids[slot],
@@ -442,7 +442,7 @@ impl<S: Scalar> Network<S> {
         self.len -= 1;
     }
 
-    /// Sets the age of the edge between two units; makes the edge if there is none.
+    /// Sets the age of the edge between two units, and makes the edge if it does not exist.
     #[inline]
     pub(crate) fn link(&mut self, a: usize, b: usize, age: u32) {
         if self.links.renew(a, b, age) {
@@ -451,7 +451,7 @@ impl<S: Scalar> Network<S> {
         }
     }
 
-    /// Takes an edge away, if there is one.
+    /// Removes an edge, if it exists.
     pub(crate) fn cut(&mut self, a: usize, b: usize) {
         if self.links.cut(a, b) {
             let (low, high) = (self.ids[a.min(b)], self.ids[a.max(b)]);
@@ -465,8 +465,7 @@ impl<S: Scalar> Network<S> {
         self.links.age(slot);
     }
 
-    /// Takes away the edges of a unit whose age is too much, then its former neighbours that have
-    /// no edge left.
+    /// Removes the edges of a unit that are too old, then its former neighbours without an edge.
     #[inline]
     pub(crate) fn drop_edges(&mut self, slot: usize, is_old: impl Fn(u32) -> bool) {
         for place in (0..self.links.degree(slot)).rev() {
@@ -516,9 +515,9 @@ impl<S: Scalar> Network<S> {
         }
     }
 
-    /// Ends the work on an input. Builds the index once it pays, and closes the gaps that removed
-    /// units left if it is worthwhile. It closes them in `per_unit` as well, which has one item per
-    /// slot. Slots known from before are void.
+    /// Finishes the processing of an input. Builds the index once it pays, and closes the gaps that
+    /// removed units left if it is worthwhile. It closes them in `per_unit` as well, which has one
+    /// item per slot. Slots known from before are void.
     #[inline]
     pub(crate) fn tidy<T: Copy>(&mut self, per_unit: &mut Vec<T>) {
         let blocks = |units: usize| units.div_ceil(prototypes::LANES);

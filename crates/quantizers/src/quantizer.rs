@@ -1,4 +1,4 @@
-//! What all quantizers have in common.
+//! Defines the common interface of quantizers.
 
 use crate::{Events, InputError, Nearest, NearestTwo, Network, NetworkSnapshot, Scalar};
 
@@ -21,7 +21,7 @@ pub trait Quantizer<S: Scalar> {
     /// Returns the units and their edges.
     fn network(&self) -> &Network<S>;
 
-    /// Returns what happens to units and edges, for those who listen.
+    /// Returns the log of the changes to units and edges.
     fn events(&mut self) -> &mut Events;
 
     /// Returns the unit nearest to `input`.

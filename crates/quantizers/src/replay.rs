@@ -81,7 +81,7 @@ pub struct ReplayConfig {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum ReplayMemory {
-    /// Each input so far with the same probability (reservoir sampling, algorithm R of Vitter
+    /// All inputs so far with the same probability (reservoir sampling, algorithm R of Vitter
     /// 1985): for worlds that do not change.
     #[default]
     Reservoir,
@@ -90,8 +90,8 @@ pub enum ReplayMemory {
 }
 
 impl ReplayConfig {
-    /// Returns a reservoir of 10,000 inputs, of which 8 are learnt for each new one: good for
-    /// streams of every kind that we tried (`docs/quantizers.md`). No paper stands behind it.
+    /// Returns a reservoir of 10,000 inputs, of which 8 are learned for each new one. It suits all
+    /// streams that we tried (`docs/quantizers.md`), and is not from a paper.
     pub fn measured(seed: u64) -> Self {
         Self {
             capacity: 10_000,
@@ -129,7 +129,7 @@ impl<S: Scalar, Q: Quantizer<S>> ReplayQuantizer<S, Q> {
         &self.quantizer
     }
 
-    /// Returns the quantizer that has learnt; what was remembered is forgotten.
+    /// Returns the inner quantizer; the remembered inputs are dropped.
     pub fn into_quantizer(self) -> Q {
         self.quantizer
     }
@@ -210,7 +210,7 @@ impl<S: Scalar, Q: Quantizer<S>> From<ReplayQuantizer<S, Q>> for SavedReplay<S, 
 impl<S: Scalar, Q: Quantizer<S>> TryFrom<SavedReplay<S, Q>> for ReplayQuantizer<S, Q> {
     type Error = SnapshotError;
 
-    /// Resumes what was saved.
+    /// Resumes a saved quantizer.
     fn try_from(saved: SavedReplay<S, Q>) -> Result<Self, SnapshotError> {
         check_header(&saved.format, saved.version, FORMAT, VERSION)?;
         saved.config.check()?;

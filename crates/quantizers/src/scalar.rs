@@ -1,4 +1,4 @@
-//! The element types a quantizer can be made of.
+//! The element types of quantizers.
 
 use core::fmt::{Debug, Display};
 use core::ops::{Add, AddAssign, Mul, MulAssign, Sub};

@@ -68,8 +68,7 @@ pub struct Tally {
     pub error: f64,
     /// M: how many those are.
     pub wins: f64,
-    /// The step at which it came, or the older of the two it was put between, from which it has
-    /// wins.
+    /// Step at which it was made, or that of the older of the two units between which it was put.
     pub since: u64,
     /// R: E / M after the last insertion it had part in, or `None` if there was none.
     pub radius: Option<f64>,
@@ -90,12 +89,12 @@ impl Tally {
         self.error / self.wins
     }
 
-    /// Returns whether it is worse off than it remembers.
+    /// Returns whether its mean error exceeds the remembered radius.
     fn has_grown(&self) -> bool {
         self.radius.is_some_and(|radius| self.mean_error() > radius)
     }
 
-    /// Returns what is left to one of two units between which a unit is put.
+    /// Returns the tally that remains with a unit after one is put between it and another.
     fn reduced(self) -> Self {
         Self {
             error: self.error * 2.0 / 3.0,
@@ -104,7 +103,7 @@ impl Tally {
         }
     }
 
-    /// Returns the tally of a unit put between two.
+    /// Returns the tally of a unit that was put between two others.
     fn between(q: Self, f: Self) -> Self {
         Self {
             error: (q.error + f.error) / 6.0,
@@ -213,7 +212,7 @@ impl<S: Scalar> Soinn<S> {
         met
     }
 
-    /// Returns what to do while there are fewer than two units.
+    /// Learns from an input while there are fewer than two units: each new point makes a unit.
     #[cold]
     fn begin(&mut self, input: &[S], best: Best<S>) -> NearestTwo<S> {
         match self.network.found(best.first) {
@@ -271,8 +270,8 @@ impl<S: Scalar> Soinn<S> {
         self.network.cut_old_edges(first, self.config.max_age);
     }
 
-    /// Carries out the first half of step 10. What would be undone is not begun, so the network
-    /// stays as it was to the bit.
+    /// Carries out the first half of step 10. An insertion that would be undone is not begun, so
+    /// the network stays the same to the bit.
     fn insert_where_error_is_large(&mut self) {
         if self.config.insertion == ErrorInsertion::Off || !self.network.has_ids_left() {
             return;

@@ -49,7 +49,7 @@ fn a_grown_network_allocates_nothing() {
     assert!(allocation_counter::measure(|| drop(black_box(vec![1_u8; 10]))).count_total > 0);
 }
 
-/// A SOINN has as many units as it finds worthwhile; here its data let it come to an end.
+/// A SOINN has as many units as its data justify; here it stops growing.
 #[test]
 fn a_grown_soinn_allocates_nothing() {
     let mut rng = ChaCha8Rng::seed_from_u64(1);

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::of_trace::{Portrait, RobotTrace, Trace};
 
-/// The first step at which two traces differ, and in what.
+/// The first step at which two traces differ, and the difference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Difference {
     /// Step number; 0 is the start.

@@ -33,7 +33,7 @@ pub enum EncodeError {
     NotFinite {
         /// Kind of thing.
         what: String,
-        /// Its index.
+        /// Index of the thing, from 0.
         index: usize,
     },
     /// Steps that must ascend do not.
@@ -41,7 +41,7 @@ pub enum EncodeError {
     Order {
         /// Kind of thing.
         what: String,
-        /// Its index.
+        /// Index of the thing, from 0.
         index: usize,
     },
     /// A reading does not have one range per beam.
@@ -49,7 +49,7 @@ pub enum EncodeError {
     Ranges {
         /// Kind of thing.
         what: String,
-        /// Its index.
+        /// Index of the thing, from 0.
         index: usize,
         /// Number of ranges it has.
         found: usize,
@@ -73,7 +73,7 @@ pub enum EncodeError {
     NodeTwice {
         /// The map's name.
         map: String,
-        /// The id.
+        /// Id that two nodes share.
         id: u32,
     },
     /// The grid of a field is empty.

@@ -23,7 +23,7 @@ pub struct ReplayEvent<'a> {
     pub content: EventContent<'a>,
 }
 
-/// What happens in a [`ReplayEvent`].
+/// Kind of a [`ReplayEvent`].
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum EventContent<'a> {
@@ -34,7 +34,7 @@ pub enum EventContent<'a> {
         /// Pose in the world's frame.
         pose: Pose,
     },
-    /// Something is drawn. It replaces what had its id on this topic.
+    /// A thing is drawn. It replaces the thing with the same id on this topic.
     Draw {
         /// Frame of its coordinates: [`WORLD`], or that of a robot.
         frame: String,
@@ -43,11 +43,11 @@ pub enum EventContent<'a> {
         /// What is drawn.
         drawing: FloorDrawing,
     },
-    /// What had this id on this topic disappears.
+    /// The thing with this id on this topic disappears.
     Erase {
         /// Frame in which it was drawn.
         frame: String,
-        /// Id.
+        /// Id of the thing on its topic.
         id: String,
     },
     /// The range sensor was read.
@@ -107,7 +107,7 @@ pub type Rgba = [f64; 4];
 const DARK: Rgba = [0.25, 0.27, 0.3, 1.0];
 /// Colour of zones of the floor.
 const GREEN: Rgba = [0.2, 0.6, 0.3, 1.0];
-/// Colour of what a robot learned.
+/// Colour of things that a robot learned.
 const BLUE: Rgba = [0.15, 0.45, 0.8, 1.0];
 /// Colour of a robot and of its belief.
 const RED: Rgba = [0.85, 0.3, 0.2, 1.0];
@@ -117,8 +117,8 @@ const NODE: f64 = 0.05;
 /// Radius of believed positions, m.
 const BELIEVED: f64 = 0.1;
 
-/// Returns the events of a replay in order of their steps. A colour says whose something is. Fields
-/// over the floor are left out.
+/// Returns the events of a replay in order of their steps. A colour tells to whom a thing belongs.
+/// Fields over the floor are left out.
 ///
 /// ```
 /// use tolman_replay::{EventContent, Replay, RobotTrack, Scenery, events};

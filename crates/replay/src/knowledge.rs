@@ -181,8 +181,8 @@ impl Belief {
         }
     }
 
-    /// Records what a system believes from `step` on, if that differs from before. It keeps the
-    /// most likely guesses, at positions that `site` gives for places.
+    /// Records a system's belief from `step` on, if it has changed. It keeps the most likely
+    /// guesses, at positions that `site` gives for places.
     pub fn note(&mut self, step: u32, guesses: &[Guess], site: impl Fn(u32) -> Option<Point>) {
         let likely = guesses.iter().filter(|guess| guess.weight >= LEAST_WEIGHT);
         let shapes = likely.take(SHOWN_GUESSES).filter_map(|guess| {
@@ -264,8 +264,8 @@ pub enum Shape {
     },
 }
 
-/// Numbers over the cells of a grid that change from time to time, drawn as colours and, if there
-/// is room, as digits.
+/// Numbers over the cells of a grid that change now and then, drawn as colours and, if there is
+/// room, as digits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
     /// Name of the layer: `distance to the goal`.
@@ -335,7 +335,7 @@ impl TimeSeries {
 pub struct Sample {
     /// First step at which this holds.
     pub step: u32,
-    /// The value.
+    /// Value of the quantity, in its own unit.
     pub value: f64,
 }
 

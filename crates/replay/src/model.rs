@@ -81,7 +81,7 @@ impl Fact {
     }
 }
 
-/// A robot: its pose at every step, and what it knew.
+/// A robot: its pose at every step, and its knowledge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotTrack {
     /// Name, if there are several: `Avoid`, `first.jsonl`.

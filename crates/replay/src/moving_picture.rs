@@ -23,7 +23,7 @@ const RATE: f64 = 25.0;
 /// Pause after each chapter, s.
 const PAUSE: f64 = 1.2;
 
-/// Way that takes as long as a turn by one radian, m.
+/// Distance that takes as long as a turn by one radian, m.
 const METRES_PER_RADIAN: f64 = 0.05;
 
 /// Width of the picture, user units.

@@ -20,7 +20,7 @@ use super::{DoorChange, Fact, Mark, Marks, Replay, RobotTrack, Scenery, SceneryD
 
 /// A kind of robot that replays can show: its sensor and commands, beyond its body.
 pub trait Portrait: Recordable {
-    /// Returns its range sensor, if it has one.
+    /// Returns its range sensor, or `None` if it has none.
     fn ring(config: &Self::Config) -> Option<Ring>;
 
     /// Returns the named parts of a command, as shares of their full rates.
@@ -71,7 +71,7 @@ impl Portrait for Epuck {
     }
 }
 
-/// A trace in memory: what a replay shows of it, and what traces are compared by.
+/// A trace in memory: the parts that a replay shows, and that are compared with other traces.
 #[derive(Debug)]
 pub struct Trace<M: Recordable> {
     /// Name of the trace.

@@ -4,7 +4,7 @@ use serde::Serialize;
 use tolman_geom::{Point, Vector};
 use tolman_sim::{Area, Bounds, World};
 
-/// Fixed things: walls, zones of the floor, and doors. Coordinates are in metres, x to the right
+/// Static things: walls, zones of the floor, and doors. Coordinates are in metres, x to the right
 /// and y upwards.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scenery {
@@ -46,7 +46,7 @@ pub enum ZoneKind {
 pub struct SceneryDoor {
     /// Name of the door.
     pub name: String,
-    /// Its ends.
+    /// Ends of the door, m.
     pub ends: [Point; 2],
     /// Changes, ascending by step; before the first one it is open.
     pub changes: Vec<DoorChange>,

@@ -1,4 +1,4 @@
-//! What is drawn, as Rerun's archetypes.
+//! Converts drawings to Rerun's archetypes.
 
 use re_sdk_types::archetypes::{LineStrips3D, Points3D, Transform3D};
 use re_sdk_types::components::Color;
@@ -10,9 +10,9 @@ use tolman_robot::Ring;
 
 /// Half the width of lines, in points of the screen: below 0, as Rerun wants it.
 const LINE: f32 = -1.0;
-/// Radius of what a beam met, points of the screen.
+/// Radius of the points where beams ended, points of the screen.
 const HIT: f32 = -2.0;
-/// Colour of what beams met.
+/// Colour of the points where beams ended.
 const GREY: Rgba = [0.5, 0.5, 0.5, 1.0];
 
 /// Returns a drawing.
@@ -48,7 +48,8 @@ pub(crate) fn transform(pose: Pose) -> Vec<SerializedComponentBatch> {
     Transform3D::from_translation_rotation(xyz(pose.position), turn).as_serialized_batches()
 }
 
-/// Returns what the beams of a scan met, in the robot's frame. Beams that met nothing are left out.
+/// Returns the points that the beams of a scan met, in the robot's frame. Beams that met nothing
+/// are left out.
 pub(crate) fn scan(ring: &Ring, ranges: &[f64]) -> Vec<SerializedComponentBatch> {
     let beams = (0..).zip(ranges);
     let met = beams.filter(|(_, range)| **range < ring.max_range);

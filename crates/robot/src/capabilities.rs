@@ -1,5 +1,5 @@
-//! The capabilities of a robot's sensing. A layer or a system names in its bounds what it needs,
-//! and so runs on every robot that senses it.
+//! Capabilities of a robot's sensing. A layer or a system names its needs in its bounds, and so
+//! runs on every robot that meets them.
 
 use tolman_geom::Heading;
 
@@ -20,7 +20,7 @@ pub trait Compass {
 
 /// Sensing with the distances that the wheels rolled.
 pub trait Rolls {
-    /// Returns what the wheels rolled since the step before, or `None` for a drop-out.
+    /// Returns the odometry since the step before, or `None` for a drop-out.
     fn odometry(&self) -> Option<Odometry>;
 }
 
@@ -32,7 +32,8 @@ pub trait Sees {
 
 /// Sensing with contact.
 pub trait Bumps {
-    /// Returns whether the body touched something in this time step, or `None` if nothing tells.
+    /// Returns whether the body touched something in this time step, or `None` without a bumper or
+    /// for a drop-out.
     fn bump(&self) -> Option<bool>;
 }
 

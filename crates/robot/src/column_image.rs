@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 
 use crate::LaserSensing;
 
-/// What a camera that looks all round sees, measured column by column: an image signature.
+/// View of a camera that looks all round, measured column by column: an image signature.
 ///
 /// Column `i` of `n` looks to bearing `i` · 2π / `n`, counter-clockwise from ahead, so that a turn
 /// of the robot moves the columns round.

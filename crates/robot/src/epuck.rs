@@ -112,7 +112,7 @@ pub struct WheelTurns {
     pub right: f64,
 }
 
-/// Readings of an e-puck in one time step. A sensor that gave nothing this time is `None`.
+/// Readings of an e-puck in one time step. A sensor without a reading is `None`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct EpuckSensing {
@@ -123,8 +123,8 @@ pub struct EpuckSensing {
     pub proximity: Option<[f64; PROXIMITY_SENSORS]>,
     /// Turns of the wheels since the step before.
     pub encoders: Option<WheelTurns>,
-    /// Whether the body touched something in this step. The real robot has no bumper and says
-    /// nothing.
+    /// Whether the body touched something in this step; `None` for the real robot, which has no
+    /// bumper.
     pub bump: Option<bool>,
 }
 

@@ -102,7 +102,7 @@ impl<P: Read + Write, W: FnMut(Duration)> SerialEpuck<P, W> {
         Ok(robot)
     }
 
-    /// Returns the port.
+    /// Ends the connection and returns its port.
     pub fn into_port(self) -> P {
         self.port
     }
@@ -176,7 +176,8 @@ impl<P: Read + Write, W: FnMut(Duration)> SerialEpuck<P, W> {
     }
 }
 
-/// Returns the speed nearest to this one, rad/s, that can be told and that the wheels can.
+/// Returns the speed nearest to this one, rad/s, that the protocol can express and the wheels can
+/// reach.
 fn steps_per_second(speed: f64) -> i32 {
     let speed = speed.clamp(-MOST_WHEEL_SPEED, MOST_WHEEL_SPEED);
     (speed / ENCODER_STEP).round() as i32
@@ -280,7 +281,7 @@ pub enum SerialError {
         /// Answer received.
         answer: String,
     },
-    /// The wheels' speeds are not those that it was told.
+    /// The wheels' speeds differ from the command.
     #[error(
         "the e-puck drives at {set:?} steps a second where it was told {told:?}: a byte was lost, or its remote control is in use; open its port again"
     )]

@@ -1,6 +1,6 @@
 use crate::Robot;
 
-/// A mark that tells a place from others that look like it.
+/// A mark that distinguishes a place from similar ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Landmark {
@@ -8,7 +8,7 @@ pub enum Landmark {
     Start,
     /// The robot's goal.
     Goal,
-    /// Another one that it can recognize, by a number of the caller's.
+    /// Another landmark that the robot can recognize, by a number of the caller's.
     Numbered(u32),
 }
 
@@ -19,8 +19,8 @@ pub trait SensesLandmarks: Robot {
     fn landmark(&self) -> Option<Landmark>;
 }
 
-/// Any robot, and who tells whether it stands at a landmark. A robot without a sensor for that
-/// needs a camera above the maze, a mark on the floor, or a person who watches.
+/// Any robot, with a function that names the landmark at its position. A robot without a sensor for
+/// landmarks needs a camera above the maze, a mark on the floor, or a person who watches.
 ///
 /// ```
 /// use tolman_robot::{Landmark, Landmarked, Robot, SensesLandmarks};
@@ -55,7 +55,7 @@ pub struct Landmarked<R, F> {
 }
 
 impl<R: Robot, F: Fn(&R) -> Option<Landmark>> Landmarked<R, F> {
-    /// Returns `robot` with `landmark`, which tells the landmark it stands at.
+    /// Returns `robot` with the function `landmark`, which names the landmark at its position.
     pub const fn new(robot: R, landmark: F) -> Self {
         Self { robot, landmark }
     }

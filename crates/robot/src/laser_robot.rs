@@ -21,8 +21,7 @@ pub struct LaserSensing {
 }
 
 impl LaserSensing {
-    /// Returns the state before the first reading: a scan that met nothing, and nothing from any
-    /// other sensor.
+    /// Returns the state before the first reading: a scan that met nothing, and no other readings.
     #[must_use]
     pub fn silent(ring: Ring) -> Self {
         Self {

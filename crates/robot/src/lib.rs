@@ -1,4 +1,4 @@
-//! What a robot senses and is told, simulated or real.
+//! Defines a robot's readings and commands, simulated or real.
 //!
 //! A [`Robot`] carries a command for one time step and answers with what it senses. The crates
 //! above use only this trait and these value types. So a brain or a layer that was tried on the

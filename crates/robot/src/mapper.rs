@@ -4,8 +4,8 @@ use tolman_geom::Point;
 
 use crate::Landmark;
 
-/// Learns a map from what a robot sensed and did. It watches and never drives, so it works on a log
-/// as on a robot.
+/// Learns a map from a robot's readings and actions. It watches and never drives, so it works on a
+/// log as on a robot.
 ///
 /// Each mapper names in [`Observation`](Self::Observation) what it observes at a time. MSLST
 /// observes a time step with its scan and the action under way. CPM observes a fragment walked from
@@ -24,38 +24,39 @@ pub trait Mapper {
     /// unchanged.
     fn observe(&mut self, seen: &Self::Observation) -> Result<(), Self::Error>;
 
-    /// Returns what it has learned, as places and links that any scorer and any drawing can read;
-    /// empty if it learns no map. O(map).
+    /// Returns the learned map as places and links, which any scorer and any drawing can read.
+    /// Empty if the mapper learns no map. O(map).
     fn map(&self) -> MapView {
         MapView::default()
     }
 
-    /// Returns where it believes the robot to be, the likeliest first; empty if it does not ask.
+    /// Returns the positions where it believes the robot to be, the likeliest first. Empty if the
+    /// mapper does not localize.
     fn belief(&self) -> Vec<Guess> {
         Vec::new()
     }
 
-    /// Returns the places that it came to, in order, as it understands them by all that it has seen
-    /// since. A place that is not on its map is `None`. Empty if its places keep their names, so
-    /// that its beliefs of old still hold. O(visits · log map).
+    /// Returns the places that it visited, in order, in the light of all later observations. A
+    /// place that is not on its map is `None`. Empty if its places keep their names, so that its
+    /// beliefs of old still hold. O(visits · log map).
     fn visits(&self) -> Vec<Option<u32>> {
         Vec::new()
     }
 
-    /// Returns how many places it came to: as many as [`visits`](Self::visits) names.
+    /// Returns the number of places that it visited: as many as [`visits`](Self::visits) names.
     fn visit_count(&self) -> usize {
         self.visits().len()
     }
 
-    /// Returns the probability that its map is right of what it has seen, 0 … 1; `None` if it does
+    /// Returns the probability that its map is right for its observations, 0 … 1; `None` if it does
     /// not estimate that.
     fn certainty(&self) -> Option<f64> {
         None
     }
 
-    /// Returns the memory of its map, bytes: places, links and all that they hold, by their number
-    /// and size. The data it was learned from (journals, records), derived data and spare memory do
-    /// not count. `None` if it is not known. O(map).
+    /// Returns the memory of its map, bytes: places and links with their contents. The data from
+    /// which it was learned (journals, records), derived data and spare memory do not count. `None`
+    /// if it is not known. O(map).
     fn map_bytes(&self) -> Option<usize> {
         None
     }
@@ -137,7 +138,7 @@ pub struct Guess {
 pub enum Position {
     /// A point of the world, m.
     Point(Point),
-    /// A place of the robot's map, by id, which need not know where it lies.
+    /// A place of the robot's map, by id. Its position need not be known.
     Place(u32),
 }
 

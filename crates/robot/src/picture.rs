@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 
 use tolman_geom::Point;
 
-/// A colour picture of what lies ahead.
+/// A colour picture of the view ahead.
 ///
 /// Straight lines stay straight: the camera is a pinhole. The left of the picture is on the robot's
 /// left. A map made from a mirrored picture is a mirror image of the world.

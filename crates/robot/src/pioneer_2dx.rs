@@ -1,4 +1,4 @@
-//! The Pioneer 2-DX: its measures and what it senses. It is told by
+//! The Pioneer 2-DX: its measures and its readings. It takes the command
 //! [`TurnTranslate`](crate::TurnTranslate).
 
 use alloc::vec::Vec;
@@ -33,10 +33,10 @@ pub const SONARS: usize = 16;
 /// Half-width of a sonar's cone, rad: the cone is 15° wide.
 pub const SONAR_HALF_WIDTH: f64 = 7.5 * PI / 180.0;
 
-/// A sonar reads nothing nearer, m.
+/// Minimum reading of a sonar, m.
 pub const SONAR_LEAST: f64 = 0.1;
 
-/// A sonar reads nothing farther, m.
+/// Maximum reading of a sonar, m.
 pub const SONAR_MOST: f64 = 5.0;
 
 /// The camera on top: 49° by 37°, 0.3 m above the floor.
@@ -97,8 +97,7 @@ pub fn body() -> Body {
     }
 }
 
-/// Its readings in one time step. A sensor that gave nothing this time is `None`; the other
-/// readings still hold.
+/// Readings in one time step. A sensor without a reading is `None`; the other readings still hold.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pioneer2dxSensing {
@@ -115,7 +114,7 @@ pub struct Pioneer2dxSensing {
 }
 
 impl Pioneer2dxSensing {
-    /// Before the first reading: nothing from any sensor.
+    /// State before the first reading: nothing from any sensor.
     pub const SILENT: Self = Self {
         time_us: 0,
         sonars: None,

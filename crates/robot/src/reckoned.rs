@@ -46,8 +46,8 @@ where
     R: Robot<Sensing: Rolls>,
     F: FnMut(Odometry),
 {
-    /// Hands what the wheels of `robot`, which may be a mutable reference, rolled in each step to
-    /// `take`. A step whose odometry dropped out is left out.
+    /// Returns `robot`, whose odometry is passed to `take` after each step. The robot may be a
+    /// mutable reference. Steps without odometry are left out.
     pub const fn new(robot: R, take: F) -> Self {
         Self { robot, take }
     }

@@ -34,7 +34,7 @@ pub trait Robot {
     /// Reason why a step can fail: a lost connection, a command that is not a number.
     type Error;
 
-    /// Returns what was sensed at the end of the last step (before the first: at rest).
+    /// Returns the readings at the end of the last step, or at rest before the first step.
     fn sensing(&self) -> &Self::Sensing;
 
     /// Carries out `command` for one time step and senses again.
@@ -43,7 +43,7 @@ pub trait Robot {
     /// The reason why the robot does not carry out the command. It then stands still.
     fn step(&mut self, command: &Self::Command) -> Result<(), Self::Error>;
 
-    /// Tells the robot to stand still, for one time step.
+    /// Commands the robot to stand still for one time step.
     ///
     /// # Errors
     /// As [`Self::step`].

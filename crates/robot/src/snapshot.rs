@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 
 use crate::{LaserSensing, Picture, Sounding, Soundings};
 
-/// Perception of a robot at its place, whatever its sensors are.
+/// Perception of a robot at its place, by any sensors.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Snapshot {
@@ -14,12 +14,12 @@ pub struct Snapshot {
 
 /// Can take a snapshot: senses ranges, a picture, or both.
 pub trait TakesSnapshots: Soundings {
-    /// Returns what is perceived in this time step; `None` while nothing complete is available,
-    /// such as a picture while the robot moves.
+    /// Returns the snapshot of this time step; `None` while it would be incomplete, such as without
+    /// a picture while the robot moves.
     fn snapshot(&self) -> Option<Snapshot>;
 }
 
-/// Of what the laser reads alone.
+/// Snapshots of the laser's readings alone.
 impl<S: AsRef<LaserSensing>> TakesSnapshots for S {
     fn snapshot(&self) -> Option<Snapshot> {
         let soundings: Vec<Sounding> = self.soundings().collect();

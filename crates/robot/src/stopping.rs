@@ -2,7 +2,7 @@ use core::ops::Deref;
 
 use crate::{Landmark, Robot, SensesLandmarks};
 
-/// A robot that is told to stand still when this is dropped: at the end of a run, or after an
+/// A robot that is commanded to stand still when this is dropped: at the end of a run, or after an
 /// error.
 ///
 /// A signal such as Ctrl-C ends a program without dropping anything. Catch it and leave the loop

@@ -8,7 +8,7 @@ use crate::{Landmark, Mapper, Robot};
 /// robot stands in the bounds of its implementation, as [capabilities](crate::Ranges) and never as
 /// the name of a robot.
 pub trait System<R: Robot>: Mapper {
-    /// Reason why it cannot go on: the robot's error, or what its parts refuse.
+    /// Reason why it cannot continue: the robot's error, or a refusal of one of its parts.
     type Failure;
 
     /// Makes the next action of `task` with `robot`, a few time steps, and returns how the task
@@ -19,8 +19,8 @@ pub trait System<R: Robot>: Mapper {
     fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, Self::Failure>;
 
     /// Tells the system that its robot was lifted and put down, perhaps elsewhere, and returns
-    /// whether it goes on. The default gives up, because the system follows its robot and cannot
-    /// find it again.
+    /// whether it can continue. The default gives up, because the system follows its robot and
+    /// cannot find it again.
     fn put_down(&mut self) -> Standing {
         Standing::gave_up("it follows its robot, and cannot find out where it is put down")
     }
@@ -39,14 +39,14 @@ pub enum Task {
     Explore,
     /// Go to a goal.
     Reach(Goal),
-    /// Find out where the robot is.
+    /// Find the robot's place on the map.
     Localize,
 }
 
 /// Goal of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Goal {
-    /// A landmark, which the robot senses when it is there.
+    /// A landmark, which the robot senses on arrival.
     Landmark(Landmark),
     /// A place of the system's own map, by id.
     Place(u32),

@@ -24,7 +24,7 @@ pub struct Trajectory {
 pub struct TimedPose {
     /// Time, s.
     pub time: f64,
-    /// The pose.
+    /// Pose at that time.
     pub pose: Pose,
 }
 

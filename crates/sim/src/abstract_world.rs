@@ -1,8 +1,8 @@
 //! A world without bodies and time: places, and moves that lead from one to the next.
 //!
-//! It offers a mapper of places what a robot does, some thousand times faster than the raycast
-//! world. Each move ends at the next place, and its odometry is wrong within known bounds. The
-//! truth is recorded for scoring.
+//! It gives a mapper of places the input that a robot would give, some thousand times faster than
+//! the raycast world. Each move ends at the next place, and its odometry is wrong within known
+//! bounds. The truth is recorded for scoring.
 
 use alloc::sync::Arc;
 
@@ -11,7 +11,7 @@ use tolman_maze::{Cell, Direction, Maze};
 
 use crate::chance::{Chance, Channel, Draws};
 
-/// Places and where each direction leads from them.
+/// Places, and the place to which each direction leads from them.
 ///
 /// ```
 /// use tolman_maze::{Direction, Grid, Maze};
@@ -32,7 +32,7 @@ pub struct AbstractWorld {
     places: Vec<Point>,
     /// Per place, in the order of [`Direction::ALL`].
     neighbours: Vec<[Option<u32>; 4]>,
-    /// Per place, what is seen to each direction.
+    /// Look of each place in each direction.
     looks: Vec<[f64; 4]>,
 }
 
@@ -72,8 +72,8 @@ impl AbstractWorld {
         Self::of_cells(&cells, spacing, next)
     }
 
-    /// Returns a place a cell, `spacing` metres apart, and where `next` says that each direction
-    /// leads.
+    /// Returns a world with one place per cell, `spacing` apart, m. `next` gives the cell to which
+    /// each direction leads.
     fn of_cells(
         cells: &[Cell],
         spacing: f64,
@@ -113,8 +113,8 @@ impl AbstractWorld {
         self
     }
 
-    /// Gives every place the look of the place with the number that `of` says: rooms that are
-    /// furnished alike. Numbers of no place change nothing.
+    /// Gives every place the look of the place with the number that `of` returns, as in rooms that
+    /// are furnished alike. Numbers of no place change nothing.
     #[must_use]
     pub fn looking_like(mut self, of: impl Fn(u32) -> u32) -> Self {
         let looks = self.looks.clone();
@@ -126,8 +126,7 @@ impl AbstractWorld {
         self
     }
 
-    /// Paints the walls around one place again, each in a colour it did not have, if there are two
-    /// or more.
+    /// Paints the walls around one place again, each in another colour, if there are two or more.
     #[must_use]
     pub fn repainted(mut self, place: u32, colours: u32) -> Self {
         if let Some(look) = self.looks.get_mut(place as usize) {
@@ -198,7 +197,7 @@ pub struct MoveNoise {
     /// Bound of the error of each heading of the compass, rad.
     pub compass: f64,
     /// Bound of an error of scale, as a share of the distance, that is drawn once and shared by all
-    /// moves. It is not in the bounds that are told.
+    /// moves. The reported bounds do not include it.
     pub shared_scale: f64,
     /// Maximum distance from the place's point at which the robot stops, m, along each axis.
     pub stop: f64,
@@ -206,12 +205,12 @@ pub struct MoveNoise {
     pub outliers: f64,
     /// Factor of an outlier's error.
     pub outlier_factor: f64,
-    /// Bound of the error of what is seen.
+    /// Bound of the error of a look, in its own unit.
     pub look: f64,
 }
 
 impl MoveNoise {
-    /// Everything is told as it is.
+    /// No errors at all.
     pub const NONE: Self = Self {
         distance: 0.0,
         compass: 0.0,
@@ -231,7 +230,7 @@ pub struct AbstractRobot {
     chance: Chance,
     scale: f64,
     at: u32,
-    /// Position in the place where it stopped.
+    /// Position in the place at which it stopped.
     stop: Vector,
     moves: u64,
 }
@@ -260,7 +259,7 @@ impl AbstractRobot {
     /// Returns a robot at a place; `seed` seeds all its random numbers.
     ///
     /// # Errors
-    /// If an error's bound is negative or no number.
+    /// If an error's bound is negative or not a number.
     pub fn new(
         world: Arc<AbstractWorld>,
         at: u32,
@@ -296,15 +295,16 @@ impl AbstractRobot {
         self.at
     }
 
-    /// Puts the robot at another place without telling it; one that does not exist changes nothing.
+    /// Puts the robot at another place without telling it. Does nothing if the place does not
+    /// exist.
     pub fn kidnap(&mut self, to: u32) {
         if (to as usize) < self.world.places.len() {
             self.at = to;
         }
     }
 
-    /// Lets the world change round the robot, which stays where it is: doors shut and open. One
-    /// without its place changes nothing.
+    /// Changes the world round the robot, which keeps its place: doors shut and open. Does nothing
+    /// if the new world lacks that place.
     pub fn find_itself_in(&mut self, world: Arc<AbstractWorld>) {
         if (self.at as usize) < world.places.len() {
             self.world = world;
@@ -332,8 +332,7 @@ impl AbstractRobot {
             .map(|value| value + self.errors.look * (2.0 * draws.uniform() - 1.0))
     }
 
-    /// Returns one of the directions that lead somewhere, each as likely as the others, or `None`
-    /// if there are none.
+    /// Returns one of the open directions, all equally likely, or `None` if there are none.
     #[must_use]
     pub fn wander(&self) -> Option<Direction> {
         let mut draws = self.draws("abstract walk");
@@ -342,7 +341,7 @@ impl AbstractRobot {
         exits.get(drawn).copied()
     }
 
-    /// Goes to the next place; none, and it stays, if the direction is blocked.
+    /// Goes to the next place. Returns `None` and stays if the direction is blocked.
     pub fn go(&mut self, direction: Direction) -> Option<AbstractMove> {
         let from = self.at;
         let to = self.world.neighbour(from, direction)?;
@@ -376,7 +375,7 @@ impl AbstractRobot {
         })
     }
 
-    /// Returns all moves that may have been measured so.
+    /// Returns bounds on all moves that could give this measurement.
     fn bounds(&self, measured: Vector, heading: f64) -> Option<PoseBox> {
         let MoveNoise {
             distance, compass, ..

@@ -2,7 +2,7 @@ use thiserror::Error;
 use tolman_geom::Point;
 use tolman_robot::Body;
 
-/// Reason why a body cannot be one.
+/// Reason why a body is invalid.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum BodyError {

@@ -1,4 +1,4 @@
-//! Ray casters: three ways to answer the same question, held to each other by tests.
+//! Ray casters: three ways to answer the same question, which tests compare with each other.
 //!
 //! | caster | worlds | how |
 //! | --- | --- | --- |
@@ -6,11 +6,10 @@
 //! | [`WallIndex`] | any | draws the walls near by into a one-dimensional depth buffer |
 //! | `ParryPolyline` (feature `parry2d`) | any | parry2d's bounding volume hierarchy, ray by ray: the reference |
 //!
-//! A world chooses one of the first two itself. `ParryPolyline` is there to judge them: it shares
-//! no line with them. If you write a caster, or doubt a range in a world of your own, you can
-//! hold one to the other. That is why the feature `parry2d` is on by default. Without it the
-//! simulator computes the same bits, builds 14 crates fewer, and `ParryPolyline` is not a name the
-//! compiler knows.
+//! A world chooses one of the first two itself. `ParryPolyline` is there to test them: it shares no
+//! code with them. If you write a caster, or doubt a range in a world of your own, you can compare
+//! the two. So the feature `parry2d` is on by default. Without it the simulator computes the same
+//! bits, builds 14 crates fewer, and `ParryPolyline` does not exist.
 //!
 //! **What touching means.** A wall is a closed segment, so a ray into the joint of two walls never
 //! leaks. A ray that passes the free end of a wall within rounding (10⁻⁹ m) may read the end or
@@ -35,7 +34,7 @@ pub use wall_index::WallIndex;
 
 /// Returns distances to the nearest wall in any direction.
 pub trait Caster: fmt::Debug + Send + Sync {
-    /// Returns how far a ray goes before it meets a wall, m; `max_range` if it meets none before.
+    /// Returns the distance along a ray to the first wall, m; `max_range` if it meets none before.
     /// `direction` is a unit vector.
     fn cast(&self, origin: Point, direction: Vector, max_range: f64) -> f64;
 
@@ -50,9 +49,9 @@ pub trait Caster: fmt::Debug + Send + Sync {
 /// bit: lanes do what scalars do, and nothing is fused.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Lanes {
-    /// The number that every processor of the target has lanes for: two on plain x86-64.
+    /// The number of lanes that every processor of the target has: two on plain x86-64.
     Baseline,
-    /// The number that this processor has lanes for, found out at run time.
+    /// The number of lanes that this processor has, detected at run time.
     #[default]
     Widest,
 }

@@ -40,8 +40,8 @@ impl Chance {
         }
     }
 
-    /// Returns the same run, for this robot at this tick. Robots are told apart up to 2²⁴ of them,
-    /// ticks up to 2⁴⁸ (890,000 years of tenths of a second).
+    /// Returns the numbers of the same run for this robot at this tick. Robots differ up to number
+    /// 2²⁴, ticks up to 2⁴⁸ (890,000 years of tenths of a second).
     #[must_use]
     pub const fn at(self, robot: u32, tick: u64) -> Self {
         Self {
@@ -80,7 +80,7 @@ impl Channel {
         Self(0x811C_9DC5).joined(name)
     }
 
-    /// Returns the channel of this one's name with `more` behind it.
+    /// Returns the channel whose name is this one's with `more` appended.
     pub(crate) const fn joined(self, more: &str) -> Self {
         let bytes = more.as_bytes();
         let mut hash = self.0;

@@ -14,21 +14,22 @@ use crate::{Motion, WallSegment, World};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Contact {
-    /// The body stays where it touched. A disc still turns.
+    /// Stops where it touched. A disc still turns.
     Stop,
-    /// The rest of its path goes along what it touched.
+    /// Slides along what it touched for the rest of its path.
     Slide,
 }
 
-/// Gap that bodies keep, m: more than a step's rounding, less than any sensor sees.
+/// Gap that bodies keep, m: more than the rounding of a step, less than any sensor detects.
 const SKIN: f64 = 1e-6;
 
-/// Cut of a motion below which it met nothing, m: the rounding of a slide.
+/// Shortening of a motion below which it met nothing, m: the rounding of a slide.
 const CUT: f64 = 1e-12;
 
 /// Maximum turn along one chord, rad.
 const CHORD_TURN: f64 = 0.1;
-/// Chords of one motion at most, so that a step ends whatever turn a disturbance makes.
+/// Maximum number of chords of one motion, so that a step ends however large a disturbance's turn
+/// is.
 const MOST_CHORDS: f64 = 10_000.0;
 
 /// Returns whether `body` overlaps no wall of `world` and none of the doors that are `shut`.
@@ -123,7 +124,7 @@ impl Obstacles {
         self.walls.is_empty() && self.discs.is_empty()
     }
 
-    /// Returns the gap between `body` and the nearest of them, m.
+    /// Returns the gap between `body` and the nearest obstacle, m.
     fn gap(&self, body: &Placed) -> f64 {
         let walls = self.walls.iter().map(|wall| gap_to_wall(body, wall));
         let discs = self
@@ -167,7 +168,7 @@ pub(crate) fn advance(
     })
 }
 
-/// Moves a body along an arc as far as the obstacles let it. Returns the length that was cut, m.
+/// Moves a body along an arc as far as the obstacles let it. Returns the missing length, m.
 fn follow(body: &mut Placed, obstacles: &Obstacles, motion: Motion, contact: Contact) -> f64 {
     let start = body.pose();
     let chords = (motion.turn.abs() / CHORD_TURN)
@@ -274,7 +275,7 @@ impl Mover<'_> {
         free
     }
 
-    /// Moves by `displacement` as far as possible, and returns whether something was met.
+    /// Moves by `displacement` as far as possible, and returns whether it met something.
     fn translate(&mut self, displacement: Vector, contact: Contact) -> bool {
         let mut left = displacement;
         let mut met = false;
@@ -386,7 +387,8 @@ impl Mover<'_> {
     }
 }
 
-/// Returns when a disc on its way first comes within `radius` of a wall.
+/// Returns the first touch of a disc on its way with a wall, at distance `radius`; `None` if it
+/// stays farther off.
 fn disc_meets_wall(
     centre: Point,
     radius: f64,
@@ -424,7 +426,8 @@ fn disc_meets_wall(
     ends.chain(side).min_by(|a, b| a.share.total_cmp(&b.share))
 }
 
-/// Returns when a disc on its way first comes within `radius` of a point.
+/// Returns the first touch of a disc on its way with a point, at distance `radius`; `None` if it
+/// stays farther off.
 fn disc_meets_point(
     centre: Point,
     radius: f64,

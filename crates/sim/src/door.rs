@@ -6,15 +6,15 @@ use crate::{Material, WallSegment};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum DoorState {
-    /// Bodies and sensors pass through it.
+    /// Bodies and sensors pass through the door.
     Open,
-    /// A wall like any other.
+    /// The door is a wall like any other.
     Shut,
 }
 
-/// A wall that comes and goes.
+/// A wall that can be opened and shut.
 ///
-/// A door that is to shut while a body stands in it waits until the body is out of the way.
+/// A door does not shut while a body stands in it; it waits until the body is out of the way.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Door {
@@ -35,7 +35,7 @@ pub struct Door {
 }
 
 impl Door {
-    /// Returns the wall that it is when shut.
+    /// Returns the wall of the shut door.
     pub(crate) fn wall(&self) -> WallSegment {
         WallSegment {
             start: self.start,

@@ -15,16 +15,15 @@
 //! 4. [`noise`] wraps sensors and motors: every fault draws from its own channel of [`Chance`], so
 //!    that adding one never shifts another.
 //! 5. [`trace`] writes down what happened and replays it to the bit.
-//! 6. [`Solo`] is one robot in a world of its own behind [`tolman_robot::Robot`], which is all a
-//!    brain gets to see. The [`Truth`] lies beside it, for scoring.
+//! 6. [`Solo`] is one robot in a world of its own behind [`tolman_robot::Robot`], which is all that
+//!    a brain gets to see. The [`Truth`] is kept beside it, for scoring.
 //!
-//! Mappers that see places alone have a world of their own, without bodies and time:
-//! [`abstract_world`].
+//! Mappers of places have a world of their own, without bodies and time: [`abstract_world`].
 //!
 //! With [`tolman_robot`] this crate suffices for a robot in a world: [`geom`], [`maze`] and
 //! [`rand`], which its signatures need, are re-exported.
 //!
-//! The feature `parry2d`, on by default, adds a reference to hold the ray casters to: see
+//! The feature `parry2d`, on by default, adds a reference for testing the ray casters: see
 //! [`casters`].
 //!
 //! Metres, radians, microseconds; x is east, y is north, angles grow counter-clockwise.

@@ -3,8 +3,8 @@ use tolman_robot::Body;
 
 use crate::{Chance, Contact, Surroundings};
 
-/// Motion of a robot in one time step: a circular arc of `distance` m of path along which it turns
-/// by `turn` rad, counter-clockwise.
+/// Motion of a robot in one time step: a circular arc with a path of length `distance`, m, and a
+/// turn of `turn`, rad, counter-clockwise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Motion {
     /// Path length, m; negative is backward.
@@ -33,19 +33,19 @@ pub trait Model {
     /// Returns its outline.
     fn body(&self) -> &Body;
 
-    /// Returns what happens where the body meets something.
+    /// Returns the rule for contacts: how the body moves on when it meets something.
     fn contact(&self) -> Contact;
 
     /// Returns the length of one time step, µs.
     fn step_us(&self) -> u64;
 
-    /// Returns whether a command can be carried out at all.
+    /// Checks that a command can be carried out at all.
     ///
     /// # Errors
     /// The part of the command that is not a number.
     fn check(&self, command: &Self::Command) -> Result<(), CommandError>;
 
-    /// Returns what the motors make of a command. Called only with a command that passed
+    /// Returns the motion that the motors make of a command. Called only with a command that passed
     /// [`check`](Self::check).
     fn motion(&mut self, command: &Self::Command, chance: &Chance) -> Motion;
 
@@ -68,7 +68,7 @@ pub trait Model {
 pub struct CommandError {
     /// Part of the command.
     pub part: &'static str,
-    /// Its value.
+    /// Value that was given.
     pub value: f64,
 }
 

@@ -4,8 +4,8 @@
 //! several faults to one value in turn. Every fault draws from a [`Channel`](crate::Channel) of its
 //! own, so none shifts another one's numbers.
 //!
-//! To add one to a configuration: give [`Fault`] a variant. To add one from another crate:
-//! implement [`Disturbance`], and give it to the robot after it was built. [`Noise`] makes one of
+//! To add a fault to the configuration, give [`Fault`] a variant. To add one from another crate,
+//! implement [`Disturbance`] and give it to the robot after it was built. [`Noise`] makes one of
 //! any distribution of `rand` or `rand_distr`.
 //!
 //! Kidnapping is not a fault of the robot: see
@@ -26,7 +26,7 @@ pub use gaussian::Gaussian;
 
 /// A value made of numbers that can be disturbed one by one.
 pub trait Values: Clone {
-    /// Replaces every number by what `change` makes of it.
+    /// Replaces every number by the result of `change`.
     fn change(&mut self, change: impl FnMut(f64) -> f64);
 
     /// Returns whether a sensor or a motor can give this value. All its numbers must be finite, and
@@ -48,7 +48,7 @@ impl Values for f64 {
 }
 
 impl<V: Values> Values for Option<V> {
-    /// Returns what is missing stays so.
+    /// Changes the value if it is there. A missing value stays missing.
     fn change(&mut self, change: impl FnMut(f64) -> f64) {
         if let Some(value) = self {
             value.change(change);
@@ -63,8 +63,8 @@ impl<const N: usize> Values for [f64; N] {
 }
 
 impl Values for Scan {
-    /// Changes the ranges of beams that met something, within the range of the ring. Others have no
-    /// echo to disturb.
+    /// Changes the ranges of beams that met something, within the range of the ring. Other beams
+    /// have no echo to disturb.
     fn change(&mut self, mut change: impl FnMut(f64) -> f64) {
         let max_range = self.ring.max_range;
         for range in self.ranges.iter_mut().filter(|range| **range < max_range) {
@@ -103,7 +103,7 @@ impl Values for Picture {
         }
     }
 
-    /// Returns whether the number of pixels is as its size says.
+    /// Returns whether the number of pixels agrees with its size.
     fn is_sound(&self) -> bool {
         self.pixels.len() == self.width as usize * self.height as usize
     }

@@ -1,4 +1,4 @@
-//! The robots, one file each, reading like their data sheets.
+//! Models of robots, one file each, which read like data sheets.
 
 use crate::noise::{Faults, Values};
 
@@ -20,8 +20,8 @@ pub use pioneer_2dx::{
     WheelScale,
 };
 
-/// Returns what a trace calls the disturbances of one value: the name of the value, and how each
-/// prints itself.
+/// Returns the names of the disturbances of one value in a trace: `value` and each disturbance's
+/// `Debug` text.
 fn names<V: Values>(value: &str, faults: &Faults<V>) -> impl Iterator<Item = String> {
     faults
         .disturbances()

@@ -5,8 +5,8 @@ use tolman_robot::Body;
 use crate::casters::BeamSweep;
 use crate::{WallSegment, World};
 
-/// Everything a body can meet at one moment: the world's walls, the doors that are shut, and the
-/// bodies of all robots.
+/// Everything that a body can meet at one moment: the world's walls, the shut doors, and the bodies
+/// of all robots.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scene<'a> {
     pub(crate) world: &'a World,
@@ -18,7 +18,7 @@ pub(crate) struct Scene<'a> {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Crowd {
     bodies: Vec<Placed>,
-    /// The disc round each, stored together to find bodies out of reach quickly.
+    /// Disc round each body, stored together to find bodies out of reach quickly.
     discs: Vec<Disc>,
 }
 
@@ -166,7 +166,7 @@ impl Placed {
         }
     }
 
-    /// Returns how far a ray meets the body from outside, m; infinity if it does not.
+    /// Returns the distance along a ray to the body, m, from outside; infinity if it misses.
     pub(crate) fn ray(&self, origin: Point, direction: Vector) -> f64 {
         if self.corners.is_empty() {
             let to_centre = self.pose.position - origin;
@@ -189,7 +189,7 @@ impl Placed {
 mod tests {
     use super::*;
 
-    /// It touches the disc on every side and cuts nothing off.
+    /// The outline touches the disc on every side and cuts nothing off.
     #[test]
     fn the_outline_of_a_disc_runs_round_it() {
         let centre = Point::new(1.0, -2.0);

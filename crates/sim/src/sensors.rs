@@ -1,4 +1,4 @@
-//! The sensors, one file each.
+//! Models of sensors, one file each.
 //!
 //! To add one, write a file with a type that implements [`Sensor`]. Give the model of the robot
 //! that carries it a field, sensed in [`Model::sense`](crate::Model::sense). [`Surroundings`]
@@ -41,13 +41,13 @@ pub use picture_camera::{
 };
 pub use sonars::{CrossTalk, Misses, SonarConfig, SonarError, Sonars};
 
-/// Something that reads a value off the surroundings of a robot.
+/// A sensor, which reads a value from the surroundings of a robot.
 pub trait Sensor {
     /// Type of its readings.
     type Reading;
 
-    /// Takes a reading; `None` if the sensor gives nothing this time. The old contents of `reading`
-    /// may be overwritten in place, so that a step need not allocate.
+    /// Takes a reading. Returns `None` if the sensor gives nothing this time. The old contents of
+    /// `reading` may be overwritten in place, so that a step need not allocate.
     fn sense(
         &mut self,
         surroundings: &Surroundings<'_>,

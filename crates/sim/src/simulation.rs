@@ -9,7 +9,7 @@ use crate::{
     body, contact,
 };
 
-/// A robot of a simulation: its place in the order of adding, from 0.
+/// A robot of a simulation, by its index in the order of adding, from 0.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize,
 )]
@@ -33,8 +33,8 @@ pub struct Truth {
 
 /// Robots in a world.
 ///
-/// Robots act one by one in the order they were added, then all sense. Nothing depends on anything
-/// but the world, the seed, the robots and their commands.
+/// Robots act one by one in the order they were added, then all sense. The run depends only on the
+/// world, the seed, the robots and their commands.
 ///
 /// ```
 /// use tolman_robot::TurnTranslate;
@@ -94,10 +94,10 @@ impl<M: Model> Simulation<M> {
         }
     }
 
-    /// Puts a further robot at `pose` and lets it sense.
+    /// Adds a robot at `pose` and lets it sense.
     ///
     /// # Errors
-    /// If the robot cannot stand there, or keeps another time step than those before it.
+    /// If the robot cannot stand there, or its time step differs from that of the others.
     pub fn add(&mut self, model: M, pose: Pose) -> Result<RobotId, PlaceError> {
         body::check(model.body())?;
         let step_us = model.step_us();
@@ -138,8 +138,7 @@ impl<M: Model> Simulation<M> {
     /// Takes one command per robot, in the order of adding, and lets one time step pass.
     ///
     /// # Errors
-    /// If there is not one command per robot, or a command is not made of numbers. Nothing has
-    /// moved then.
+    /// If there is not one command per robot, or a command is not a number. Nothing has moved then.
     pub fn step(&mut self, commands: &[M::Command]) -> Result<(), StepError> {
         if commands.len() != self.robots.len() {
             let (commands, robots) = (commands.len(), self.robots.len());
@@ -216,11 +215,11 @@ impl<M: Model> Simulation<M> {
         );
     }
 
-    /// Lifts a robot and puts it down at `pose`: a kidnapping. It notices at its next step at the
-    /// earliest.
+    /// Lifts a robot and puts it down at `pose`: a kidnapping. The robot notices at its next step
+    /// at the earliest.
     ///
     /// # Errors
-    /// If it cannot stand there, in which case it stays where it is, or there is no such robot.
+    /// If there is no such robot, or it cannot stand there; it then keeps its pose.
     pub fn place(&mut self, robot: RobotId, pose: Pose) -> Result<(), PlaceError> {
         let index = robot.0 as usize;
         let body = match self.robots.get(index) {
@@ -329,8 +328,8 @@ impl<M: Model> Simulation<M> {
         })
     }
 
-    /// Opens or shuts a door, whatever its schedule; one with a body in it shuts when the body is
-    /// out.
+    /// Opens or shuts a door, whatever its schedule. A door with a body in it shuts once the body
+    /// is out.
     ///
     /// # Errors
     /// If there is no such door.
@@ -408,7 +407,7 @@ impl Doors {
         self.settle(bodies);
     }
 
-    /// Lets every door be as wanted, unless a body stands in it.
+    /// Gives every door its wanted state, unless a body stands in it.
     fn settle(&mut self, bodies: &Crowd) {
         self.shut.clear();
         for (door, standing) in self.world.doors().iter().zip(&mut self.standing) {
@@ -425,26 +424,26 @@ impl Doors {
     }
 }
 
-/// Reason why a robot cannot be put somewhere.
+/// Reason why a robot cannot be placed at a pose.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlaceError {
-    /// The pose is not made of numbers.
+    /// The pose has a number that is not finite.
     #[error(
         "the pose ({}, {}) m, heading {} rad has a number that is not finite; give finite numbers",
         pose.position.x, pose.position.y, pose.heading.radians()
     )]
     NotFinite {
-        /// The pose.
+        /// Pose that was given.
         pose: Pose,
     },
-    /// Nothing can stand there.
+    /// The position is inside a wall or outside the world.
     #[error(
         "({}, {}) m lies inside a wall or outside the world; choose a position on the floor",
         pose.position.x, pose.position.y
     )]
     NotOnFloor {
-        /// The pose.
+        /// Pose that was given.
         pose: Pose,
     },
     /// The robot would overlap a wall or a shut door.
@@ -454,9 +453,9 @@ pub enum PlaceError {
         pose.position.x, pose.position.y, pose.heading.radians()
     )]
     InWall {
-        /// The pose.
+        /// Pose that was given.
         pose: Pose,
-        /// The room the robot needs to every side, m.
+        /// Clearance that the robot needs on every side, m.
         radius: f64,
         /// Distance of the nearest wall, m.
         free: f64,
@@ -467,19 +466,19 @@ pub enum PlaceError {
         pose.position.x, pose.position.y, other.0
     )]
     InRobot {
-        /// The pose.
+        /// Pose that was given.
         pose: Pose,
         /// The robot that stands there.
         other: RobotId,
     },
-    /// The robot keeps another time step than those before it.
+    /// The robot's time step differs from that of the others.
     #[error(
         "the robot's time step is {step_us} µs, the simulation's {expected_us} µs; make them equal and positive"
     )]
     Step {
         /// The robot's, µs.
         step_us: u64,
-        /// Time step of the robots before it, µs; 0 if it is the first.
+        /// Time step of the other robots, µs; 0 for the first robot.
         expected_us: u64,
     },
     /// There is no such robot.
@@ -488,10 +487,10 @@ pub enum PlaceError {
         /// The robot asked for.
         robot: RobotId,
     },
-    /// There are as many robots as can be told apart.
+    /// The maximum number of robots is reached.
     #[error("the simulation holds 2^24 robots already; start another one")]
     TooMany,
-    /// The robot's body cannot be one.
+    /// The robot's body is invalid.
     #[error(transparent)]
     Body(#[from] BodyError),
 }

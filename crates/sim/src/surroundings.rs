@@ -32,7 +32,7 @@ pub struct Echo {
 }
 
 impl Echo {
-    /// Takes in something at `range`, which counts if it is nearer than all before.
+    /// Adds something at `range`, which counts if it is nearer than all before.
     fn shorten(&mut self, range: f64, material: Material) {
         if range < self.range {
             *self = Self { range, material };
@@ -93,7 +93,7 @@ impl<'a> Surroundings<'a> {
     }
 
     /// Clears `found` and collects in it all walls, shut doors and outlines of other robots that
-    /// come within `reach` m of a point. It may hold some more. A disc counts as the regular
+    /// come within `reach` m of a point. `found` may hold some others. A disc counts as the regular
     /// polygon of 24 sides round it, which is larger by less than 1 % of its radius.
     pub fn standing_near(&self, centre: Point, reach: f64, found: &mut Vec<WallSegment>) {
         found.clear();

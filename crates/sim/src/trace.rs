@@ -1,9 +1,9 @@
 //! Traces: what happened in a run, written as JSON lines and replayed to the bit.
 //!
 //! The first line holds the world, the seed and the robots. Then follows one line per tick and
-//! robot with its command, pose, bump and, if chosen, what it sensed. Every robot that was lifted
-//! and every door that was moved from outside also has a line. [`replay`] simulates the commands
-//! again and compares every number; a [`Reader`] only reads.
+//! robot with its command, pose, bump and, if chosen, its readings. Every robot that was lifted and
+//! every door that was moved from outside also has a line. [`replay`] simulates the commands again
+//! and compares every number; a [`Reader`] only reads.
 //!
 //! A [`Disturbance`](crate::noise::Disturbance) is code, which no file can hold. The trace of a
 //! robot that has one names it in the first line; [`replay`] then refuses, and [`replay_with`] asks
@@ -51,11 +51,11 @@ pub use replay::{replay, replay_with};
 
 use crate::Model;
 
-/// A model that can be written down and built again.
+/// A model that can be written to a trace and built again.
 pub trait Recordable:
     Model<Command: Serialize + DeserializeOwned, Sensing: Clone + Serialize + DeserializeOwned>
 {
-    /// All that is needed to build one.
+    /// Everything needed to build one.
     type Config: Clone + Debug + Serialize + DeserializeOwned;
     /// Reason why one cannot be built.
     type ConfigError: Error + Send + Sync + 'static;
@@ -71,9 +71,9 @@ pub trait Recordable:
     where
         Self: Sized;
 
-    /// Returns what disturbs this one from outside its configuration, each as a text that tells it
-    /// from others; see [`Disturbance`](crate::noise::Disturbance). A trace keeps the texts, since
-    /// it cannot keep the code.
+    /// Returns the disturbances that come from outside the configuration, each as a text that tells
+    /// it from others; see [`Disturbance`](crate::noise::Disturbance). A trace keeps the texts,
+    /// since it cannot keep the code.
     fn disturbances(&self) -> Vec<String> {
         Vec::new()
     }

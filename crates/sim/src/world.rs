@@ -57,7 +57,7 @@ impl CorridorSize {
     }
 }
 
-/// What stands still: walls, zones, and doors in their frames.
+/// The static parts of a world: walls, zones, and doors in their frames.
 ///
 /// Metres; x is east, y is north. A world made from a maze has its origin in the middle of the wall
 /// post at the south-west corner of cell (0, 0). So cell (x, y) covers [x, x + 1] × [y, y + 1]
@@ -102,7 +102,7 @@ struct Cells {
 
 impl World {
     /// Returns a maze drawn to scale. Its goal cells become the zone `destination`, its start cell
-    /// the zone `start`, as far as the maze marks them.
+    /// the zone `start`, if the maze marks them.
     ///
     /// Walls that continue each other in a straight line become one [`WallSegment`]. Thick walls
     /// have an outline, and a post of their thickness wherever one ends.
@@ -193,7 +193,7 @@ impl World {
     /// Returns this world with a further zone.
     ///
     /// # Errors
-    /// If there is a zone of that name, or a number of it is not one.
+    /// If there is already a zone of that name, or one of its numbers is not finite.
     pub fn with_zone(self, zone: Zone) -> Result<Self, WorldError> {
         self.with_zones([zone])
     }
@@ -244,8 +244,8 @@ impl World {
         Ok(self)
     }
 
-    /// Returns this world seen through another ray caster, which must be made from the same walls.
-    /// The built-in choice is [`LatticeWalk`] for mazes and occupancy grids, [`WallIndex`] for free
+    /// Returns this world with another ray caster, which must be made from the same walls. The
+    /// built-in choice is [`LatticeWalk`] for mazes and occupancy grids, [`WallIndex`] for free
     /// walls.
     #[must_use]
     pub fn with_caster(mut self, caster: Arc<dyn Caster>) -> Self {
@@ -253,7 +253,7 @@ impl World {
         self
     }
 
-    /// Returns the ray caster all sensors see through.
+    /// Returns the ray caster of all sensors.
     #[must_use]
     pub fn caster(&self) -> &dyn Caster {
         &*self.caster
@@ -264,17 +264,17 @@ impl World {
         &self.index
     }
 
-    /// Returns what all walls are made of, if it is the same.
+    /// Returns the material that all walls share, or `None` if they differ.
     pub(crate) fn common_material(&self) -> Option<Material> {
         self.common_material
     }
 
-    /// Returns the grid the walls stand on, if they do.
+    /// Returns the grid on which the walls stand, or `None` for free walls.
     pub(crate) fn lattice(&self) -> Option<&Arc<Lattice>> {
         self.lattice.as_ref()
     }
 
-    /// Returns all walls, doors not among them.
+    /// Returns all walls, without doors.
     #[must_use]
     pub fn walls(&self) -> &[WallSegment] {
         &self.walls
@@ -292,7 +292,7 @@ impl World {
         self.zones.iter().find(|zone| zone.name() == name)
     }
 
-    /// Returns all doors, as they are when a run begins.
+    /// Returns all doors in their initial states.
     #[must_use]
     pub fn doors(&self) -> &[Door] {
         &self.doors
@@ -304,7 +304,7 @@ impl World {
         self.bounds
     }
 
-    /// Returns the size of the maze this world was made from, if it was.
+    /// Returns the size of the world's maze, or `None` if it was not made from one.
     #[must_use]
     pub fn grid(&self) -> Option<Grid> {
         self.cells.map(|cells| Grid::new(cells.width, cells.height))
@@ -321,7 +321,7 @@ impl World {
         )
     }
 
-    /// Returns the same world with the cells of `other`: it was made from the same maze.
+    /// Returns the same world with the cells of `other`, which was made from the same maze.
     #[must_use]
     pub fn with_cells_of(self, other: &Self) -> Self {
         Self {
@@ -375,7 +375,7 @@ impl World {
     }
 }
 
-/// Refuses a door that cannot be.
+/// Refuses an invalid door.
 fn check(door: &Door) -> Result<(), WorldError> {
     if let Err(what) = door.wall().check() {
         let name = door.name.clone();

@@ -106,8 +106,8 @@ fn error_variance(sample: SampleSummary) -> Result<(f64, f64), SampleError> {
     Ok((sd * sd / count as f64, count as f64 - 1.0))
 }
 
-/// Returns what Student's t stays within, on both sides of 0, with this probability. By bisection
-/// over the incomplete beta function.
+/// Returns the bound within which Student's t stays, on both sides of 0, with probability `level`.
+/// By bisection over the incomplete beta function.
 fn student_quantile(level: f64, df: f64) -> f64 {
     let within = |t: f64| 1.0 - regularized_incomplete_beta(0.5 * df, 0.5, df / (df + t * t));
     let (mut low, mut high) = (0.0, 1.0);

@@ -19,7 +19,7 @@ pub enum SampleError {
     NotFinite {
         /// Its place in the sample, from 0.
         index: usize,
-        /// The value.
+        /// Value that was given.
         value: f64,
     },
     /// The values of a paired test do not pair up.
@@ -49,7 +49,7 @@ pub enum SampleError {
     /// A probability or confidence level out of range.
     #[error("{value} is not a probability; give a number between 0 and 1")]
     Probability {
-        /// The value.
+        /// Value that was given.
         value: f64,
     },
 }
@@ -71,7 +71,7 @@ pub(super) fn check(sample: &[f64], needed: usize) -> Result<(), SampleError> {
     }
 }
 
-/// Refuses what is not a probability; the ends are allowed.
+/// Refuses a number that is not a probability; 0 and 1 are allowed.
 pub(super) fn check_probability(value: f64) -> Result<(), SampleError> {
     if (0.0..=1.0).contains(&value) {
         Ok(())

@@ -1,4 +1,4 @@
-//! Everything held to SciPy's values; `tests/data/stats.py` makes them.
+//! Compares everything with SciPy's values, which `tests/data/stats.py` makes.
 
 use serde::Deserialize;
 
@@ -197,7 +197,7 @@ fn bca_from_scipys_replicates_is_scipys() {
     }
 }
 
-/// Our own resamples give SciPy's interval up to the chance in both.
+/// Our own resamples give SciPy's interval, up to the random numbers of both.
 #[test]
 fn bca_from_our_replicates_is_near_scipys() {
     use rand::SeedableRng;

@@ -1,4 +1,4 @@
-//! Statistics for comparing samples of runs, held to SciPy's values by golden files.
+//! Statistics for comparing samples of runs, tested against SciPy's values in golden files.
 //!
 //! Samples are slices of finite numbers; anything else is a [`SampleError`]. A [`PValue`] keeps its
 //! logarithm, so the deep tails of large samples do not underflow. All functions are deterministic

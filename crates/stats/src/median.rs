@@ -53,8 +53,8 @@ pub fn median_interval(sample: &[f64], level: f64) -> Result<ConfidenceInterval,
     ))
 }
 
-/// Returns the probability that `flips` fair coins show at most `heads` heads, of which there are
-/// fewer than flips.
+/// Returns the probability that `flips` fair coins show at most `heads` heads, where `heads` is
+/// less than `flips`.
 fn at_most_heads(heads: usize, flips: usize) -> f64 {
     regularized_incomplete_beta((flips - heads) as f64, heads as f64 + 1.0, 0.5)
 }

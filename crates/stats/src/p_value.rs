@@ -25,7 +25,7 @@ impl PValue {
     /// No evidence at all.
     pub const ONE: Self = Self { ln: 0.0 };
 
-    /// Returns the p-value of a natural logarithm; what lies above 1 becomes 1.
+    /// Returns the p-value with this natural logarithm, at most 1.
     pub const fn from_ln(ln: f64) -> Self {
         Self { ln: ln.min(0.0) }
     }

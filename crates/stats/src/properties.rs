@@ -1,4 +1,4 @@
-//! What holds for every sample.
+//! Tests properties that hold for every sample.
 
 use proptest::collection::vec;
 use proptest::prelude::*;

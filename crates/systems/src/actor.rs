@@ -13,8 +13,8 @@ use crate::{Brain, Doing, OfStep, stream};
 /// A [`Brain`] with the layers of a body: it drives any robot that turns and translates, and senses
 /// ranges, its heading and landmarks.
 ///
-/// An action of the [`System`] is one of the brain's. It ends early where the robot senses the
-/// landmark it was sent to.
+/// An action of the [`System`] is one of the brain's. It ends early if the robot senses its target
+/// landmark.
 #[derive(Debug)]
 pub struct Actor<B> {
     brain: B,
@@ -38,7 +38,7 @@ pub enum ActorError<R, B> {
     /// The robot failed.
     #[error("the robot failed")]
     Robot(#[source] R),
-    /// The brain refuses what it observed.
+    /// The brain refuses its observation.
     #[error("the brain cannot use what the robot sensed")]
     Brain(#[source] B),
     /// The layers cannot read the robot's scans.
@@ -49,12 +49,12 @@ pub enum ActorError<R, B> {
     Ring {
         /// The ring of the robot's scans.
         robot: Ring,
-        /// The ring that the layers are made for.
+        /// Ring for which the layers are made.
         layers: Ring,
     },
 }
 
-/// The streams that the seed of an actor is split into.
+/// Stream of an actor's seed for its layers.
 const LAYERS_STREAM: u64 = 1;
 const BRAIN_STREAM: u64 = 2;
 
@@ -66,8 +66,8 @@ impl<B: Brain> Actor<B> {
         Self::new(brain, drive, stream(seed, BRAIN_STREAM))
     }
 
-    /// Returns `brain`, whose actions `drive` carries out, its layers seeing
-    /// [what the brain says](Brain::sees_straight). The brain draws from `rng`.
+    /// Returns `brain`, whose actions `drive` carries out. The layers see [what the brain
+    /// says](Brain::sees_straight). The brain draws from `rng`.
     #[must_use]
     pub fn new(brain: B, drive: Drive<ChaCha8Rng>, rng: ChaCha8Rng) -> Self {
         let drive = if brain.sees_straight() {
@@ -104,7 +104,7 @@ impl<B: Brain> Actor<B> {
     /// once it is made, before the brain observes it.
     ///
     /// # Errors
-    /// If the robot fails, or the brain cannot use what it sensed.
+    /// If the robot fails, or the brain cannot use its readings.
     pub fn act_seen<R>(
         &mut self,
         robot: &mut R,
@@ -160,7 +160,7 @@ impl<B: Brain> Actor<B> {
     }
 }
 
-/// Returns whether the robot senses the landmark it was sent to.
+/// Returns whether the robot senses its target landmark.
 fn has_arrived<R: SensesLandmarks>(robot: &R, task: Task) -> bool {
     match task {
         Task::Reach(Goal::Landmark(goal)) => robot.landmark() == Some(goal),

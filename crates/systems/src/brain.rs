@@ -4,12 +4,12 @@ use rand::Rng;
 use tolman_maze::Direction;
 use tolman_robot::{Goal, Mapper, Standing, Task};
 
-/// Chooses high-level actions from what it observed, such as [time steps](crate::TimeStep). It
+/// Chooses high-level actions from its observations, such as [time steps](crate::TimeStep). It
 /// knows no robot: an [`Actor`](crate::Actor) lets it drive one that senses what it
 /// [observes](crate::OfStep).
 pub trait Brain: Mapper + Debug {
-    /// Returns the next action. It is called after an action has ended or the robot was put down,
-    /// once the brain has observed that.
+    /// Returns the next action. It is called after the brain has observed that an action ended or
+    /// the robot was put down.
     fn choose(&mut self, rng: &mut dyn Rng) -> Direction;
 
     /// Returns the state of `task`, as far as the brain can tell. The caller decides whether a goal
@@ -26,13 +26,13 @@ pub trait Brain: Mapper + Debug {
     }
 
     /// Returns whether its layers see scans [straightened](tolman_control::straightened), for
-    /// lasers that err. If nothing is said, they see them as they were sensed.
+    /// lasers that err. By default they see raw scans.
     fn sees_straight(&self) -> bool {
         false
     }
 
-    /// Returns in a few words what it made of its situation when it last chose, such as `lost`;
-    /// empty if there is nothing to say.
+    /// Returns the brain's view of its situation at its last choice, in a few words, such as
+    /// `lost`. Empty if there is nothing to say.
     fn words(&self) -> String {
         String::new()
     }

@@ -2,8 +2,8 @@
 //!
 //! A file begins
 //! `{"format":"tolman-map","version":2,"system":"mslst","world":"J","drawing":"5f1…","robot":"laser
-//! Pioneer","seed":1,` and goes on with what the system keeps. Files of other versions are refused
-//! by name, and so are those of the formats that were there before.
+//! Pioneer","seed":1,` and continues with the system's own fields. Files of other versions and of
+//! former formats are refused by name.
 
 // Input holds any bytes: a reader indexes nothing.
 #![cfg_attr(not(test), warn(clippy::indexing_slicing))]
@@ -13,10 +13,10 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 const FORMAT: &str = "tolman-map";
-/// Version of the header and of every system's part. No other is read.
+/// Version of the header and of every system's part. Other versions are not read.
 const VERSION: u32 = 2;
 
-/// The formats that systems had of their own before, with what wrote them.
+/// Former formats of single systems, each with the system that wrote it.
 const FORMER: [(&str, &str); 3] = [
     ("tolman-mslst-map", "mslst"),
     ("tolman-cpm", "cpm"),
@@ -35,7 +35,8 @@ pub struct MapFiles {
 pub struct Origin {
     /// Name of the maze.
     pub world: String,
-    /// Fingerprint that tells the maze's drawing from others of its name; `None` without a drawing.
+    /// Fingerprint that tells the maze's drawing from others with its name; `None` without a
+    /// drawing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub drawing: Option<String>,
     /// Name of the robot, such as "e-puck".
@@ -54,7 +55,7 @@ pub enum FileError {
     /// The text ends too soon.
     #[error("this map is cut off: copy it again, or make one with `tolman learn`")]
     CutOff(#[source] serde_json::Error),
-    /// The format is that of another kind of file.
+    /// The format is another kind of file's.
     #[error("its format is {found:?}, expected {FORMAT:?}: give a file that `tolman learn` wrote")]
     Format {
         /// Format that the file names.
@@ -99,10 +100,10 @@ pub enum FileError {
     Body {
         /// System that the file names.
         system: &'static str,
-        /// Place where it cannot be read.
+        /// Reader's error, with line and column.
         source: serde_json::Error,
     },
-    /// The map has no JSON form.
+    /// The map cannot be written as JSON.
     #[error("this map of {system} cannot be written as JSON")]
     Unwritable {
         /// System of the map.
@@ -163,7 +164,7 @@ fn header(text: &str) -> Result<Header, FileError> {
     serde_json::from_str(text).map_err(FileError::Header)
 }
 
-/// Returns the name of the system that a file is of, and where its map was learned.
+/// Returns the name of a file's system, and the origin of its map.
 ///
 /// # Errors
 /// [`FileError`] if the text has no header, or one of another format or version.
@@ -176,7 +177,7 @@ impl MapFiles {
     /// Returns the text of a file with a line end: the header, then the fields of `body`.
     ///
     /// # Errors
-    /// [`FileError::Unwritable`] if `body` has no JSON form.
+    /// [`FileError::Unwritable`] if `body` cannot be written as JSON.
     pub fn write(self, origin: &Origin, body: &impl Serialize) -> Result<String, FileError> {
         let system = self.system;
         let file = File {

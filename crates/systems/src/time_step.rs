@@ -5,18 +5,18 @@ use tolman_robot::{
     Bumps, Compass, Landmark, Odometry, Ranges, Robot, Rolls, Scan, SensesLandmarks,
 };
 
-/// One time step as a [`Brain`](crate::Brain) observes it: what the robot sensed at its end, and
-/// the high-level action it belongs to.
+/// One time step as a [`Brain`](crate::Brain) observes it: the readings at its end, and the
+/// high-level action to which it belongs.
 ///
-/// A log that does not name the actions cannot fill [`doing`](Self::doing), and a brain learns
-/// nothing of it.
+/// A log without the actions cannot fill [`doing`](Self::doing), and a brain learns nothing from
+/// it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TimeStep {
     /// The ranges in the robot's frame, m; `None` for a drop-out.
     pub scan: Option<Scan>,
     /// The compass heading; `None` for a drop-out.
     pub heading: Option<Heading>,
-    /// The landmark the robot stands at.
+    /// Landmark at which the robot stands.
     pub landmark: Option<Landmark>,
     /// Activity of the robot.
     pub doing: Doing,
@@ -25,11 +25,11 @@ pub struct TimeStep {
 /// A [`TimeStep`] of a robot with wheel encoders and a bumper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RolledStep {
-    /// The time step: what it sensed and did.
+    /// The time step: readings and activity.
     pub step: TimeStep,
     /// Odometry of the step; `None` for a drop-out.
     pub odometry: Option<Odometry>,
-    /// Whether the body touched something in the step; `None` if nothing tells.
+    /// Whether the body touched something in the step; `None` without a bumper.
     pub bump: Option<bool>,
 }
 
@@ -66,9 +66,9 @@ where
 /// Activity of a robot in a time step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Doing {
-    /// Nothing: it has been put down, before the first action or again.
+    /// None: the robot has been put down, before the first action or again.
     PutDown,
-    /// An action that goes on.
+    /// An action in progress.
     UnderWay(Direction),
     /// An action that ended with this step.
     Ended(Direction, Outcome),

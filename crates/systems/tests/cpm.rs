@@ -68,7 +68,7 @@ fn wall(cell: Cell, side: Direction) -> (Point, Point) {
     (middle - half, middle + half)
 }
 
-/// Returns how far a ray goes until it meets a wall.
+/// Returns the distance along a ray to the first wall; infinity if it meets none.
 fn range(walls: &[(Point, Point)], from: Point, way: Vector) -> f64 {
     let hits = walls.iter().filter_map(|(a, b)| {
         let (edge, gap) = (b - a, a - from);
@@ -159,7 +159,7 @@ impl SensesLandmarks for ScriptedEpuck {
     }
 }
 
-/// Returns how a task ended, and after how many actions.
+/// Returns a task's final standing, and the number of actions until then.
 fn pursue<R: Robot>(cpm: &mut Cpm, robot: &mut R, task: Task) -> (Standing, u32)
 where
     Cpm: System<R>,

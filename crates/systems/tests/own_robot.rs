@@ -287,7 +287,7 @@ fn a_compass_that_never_tells_is_named() {
     assert!(told.contains("check ranges and compass"), "{told}");
 }
 
-/// Nobody watched a real robot learn: its map is kept without the survey.
+/// No watcher sees a real robot learn: its map is kept without the survey.
 #[test]
 fn a_map_that_nobody_watched_survives_its_file() {
     let (mslst, _) = apprentice();

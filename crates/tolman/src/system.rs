@@ -134,7 +134,7 @@ impl LearnedMap for MapText {
     }
 }
 
-/// Everything that a robot is sent out with.
+/// Everything needed to send out a robot.
 #[derive(Clone, Debug)]
 pub struct Setup<'a> {
     /// Name of the maze or world.
@@ -249,7 +249,7 @@ impl Settings<'_> {
     }
 }
 
-/// Returns what a reader of TOML says, with words in place of the names of Rust's types.
+/// Returns the TOML reader's message, with words in place of the names of Rust's types.
 fn in_plain_words(message: &str) -> String {
     let message = message.trim_end();
     let Some((before, wanted)) = message.rsplit_once("expected ") else {

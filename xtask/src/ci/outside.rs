@@ -8,7 +8,7 @@ use anyhow::{Result, ensure};
 
 use crate::workspace;
 
-/// The commit that the program is told it is built from.
+/// Commit that the program is told it was built from.
 const COMMIT: &str = "0123abcd";
 
 /// Builds the program, and lets it draw a world, learn it and run an experiment.

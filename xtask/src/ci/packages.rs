@@ -21,7 +21,7 @@ struct Package {
 }
 
 impl Package {
-    /// Reads what cargo says of a member; `None` if it is not published.
+    /// Reads cargo's metadata of a member; `None` if it is not published.
     fn of(member: &Value) -> Option<Self> {
         member["publish"].is_null().then_some(())?;
         Some(Self {

@@ -33,8 +33,8 @@ pub(super) fn of(text: &str) -> Vec<Link<'_>> {
     links
 }
 
-/// Returns why `target` on `page` leads nowhere; `None` if it leads somewhere or out of the
-/// project.
+/// Returns the reason why `target` on `page` leads nowhere; `None` if it leads somewhere or out of
+/// the project.
 pub(super) fn fault(page: &Path, text: &str, target: &str) -> Option<String> {
     if target.contains("://") || target.starts_with("mailto:") {
         return None;

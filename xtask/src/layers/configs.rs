@@ -6,7 +6,7 @@ use anyhow::Result;
 
 use crate::workspace::{entries, read, rust_files};
 
-/// Returns a line for each configuration whose users a new field would break.
+/// Returns a line for each configuration that a new field would break for its users.
 ///
 /// # Errors
 /// If a folder or a file cannot be read.

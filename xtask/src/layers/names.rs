@@ -20,7 +20,7 @@ struct Allowed {
 /// The modules that define each name, such as `maps::cpm::map_file`.
 type Definitions = BTreeMap<String, Vec<String>>;
 
-/// Returns the breaches, each with the name and where it is defined.
+/// Returns the breaches, each with the name and the places where it is defined.
 ///
 /// # Errors
 /// If a folder or a file cannot be read, or a row of the glossary's table is not understood.

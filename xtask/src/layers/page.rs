@@ -27,7 +27,7 @@ pub(crate) struct CrateRow {
 /// Part of the standard library that a crate needs with its default features off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Library {
-    /// Nothing, or an allocator: it builds for bare metal.
+    /// Builds for bare metal, with or without an allocator.
     NoStd,
     Std,
 }

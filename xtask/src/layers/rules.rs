@@ -2,7 +2,7 @@
 
 use super::page::{CrateRow, Page};
 
-/// A member of the workspace and what it depends on directly.
+/// A member of the workspace and its direct dependencies.
 #[derive(Debug)]
 pub(super) struct Package {
     pub(super) name: String,
@@ -18,7 +18,7 @@ pub(super) enum Kind {
 }
 
 impl Package {
-    /// Returns what is needed to build it.
+    /// Returns the names of the crates that it needs to be built.
     pub(super) fn uses(&self) -> impl Iterator<Item = &str> {
         let normal = self
             .dependencies

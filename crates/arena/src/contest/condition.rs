@@ -47,7 +47,7 @@ const WHEEL_STREAM: u64 = 32;
 const DOOR_STREAM: u64 = 33;
 
 impl Condition {
-    /// All conditions: as made, then those that are worse.
+    /// All conditions, the milder ones first.
     pub const ALL: [Self; 10] = [
         Self::AsMade,
         Self::Wheels(1),

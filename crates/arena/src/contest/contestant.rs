@@ -90,7 +90,7 @@ pub struct Schooling {
 /// Maze in which common patterns are learned.
 const LEARNING_MAZE: &str = include_str!("../../mazes/cpm-learning.maze");
 
-/// Seed for what is learned before.
+/// Seed for the knowledge learned before a contest.
 const SCHOOL_SEED: u64 = 1;
 
 /// Number of observations in that lesson on the Pioneer.
@@ -223,8 +223,8 @@ impl Contestant {
         }
     }
 
-    /// Returns the rule for the cells that are places of this system. If it takes another cell with
-    /// two ways for a place, that cell counts as part of a way.
+    /// Returns the rule for the cells that are places of this system. If it treats another cell
+    /// with two ways as a place, that cell counts as part of a way.
     #[must_use]
     pub const fn places(self) -> PlaceRule {
         match self {
@@ -275,8 +275,8 @@ impl Contestant {
         }
     }
 
-    /// Puts it at the start of the contest's drawing, in corridors of the width that suits its
-    /// robot.
+    /// Puts the contestant at the start of the contest's drawing, in corridors as wide as its robot
+    /// needs.
     ///
     /// # Errors
     /// If it is a baseline, which is sent by other means, or robot and drawing do not fit together.
@@ -478,7 +478,7 @@ fn eyed<E: Clone>(config: DiktiometerConfig, eye: E, seed: u64) -> Pathfinder<E>
     Pathfinder::new(learner, eye, seed)
 }
 
-/// The robots that CPM can drive, whatever their errors are.
+/// Robots that CPM can drive, whatever their errors are.
 mod cpm_robot {
     use tolman_robot::Robot;
     use tolman_systems::cpm::CpmRobot;
@@ -518,8 +518,8 @@ pub(super) fn pioneer_course(name: &str, maze: &Maze) -> Result<Course, BoxError
     Ok(Course::for_body(name, &file, &body())?)
 }
 
-/// Returns what the noisy mouse is told of a Pioneer among thin walls: encoders and ranges are off
-/// by a few percent.
+/// Returns the noisy mouse's configuration for a Pioneer among thin walls, whose encoders and
+/// ranges are off by a few percent.
 const fn believing(robot: &LaserPioneerConfig, pitch: f64) -> NoisyMouseConfig {
     let mut config = NoisyMouseConfig::new(pitch, robot.turn_per_step, robot.translate_per_step);
     config.motion = MotionSource::Encoders;
@@ -560,7 +560,7 @@ impl Schooling {
         Ok(self.epuck.get_or_init(|| learned).clone())
     }
 
-    /// Returns the common patterns that the Pioneer learns there.
+    /// Returns the common patterns that the Pioneer learns in the learning maze.
     fn of_pioneer(&self) -> Result<CommonPatterns, BoxError> {
         let learned = self.pioneer.get().cloned();
         if let Some(learned) = learned {

@@ -43,7 +43,7 @@ struct Candidate {
 }
 
 impl IdealObserver<'_> {
-    /// Returns the same with a drawing of its own.
+    /// Returns the observer with a drawing of its own.
     pub(super) fn into_owned(self) -> IdealObserver<'static> {
         IdealObserver {
             maze: Cow::Owned(self.maze.into_owned()),
@@ -109,7 +109,7 @@ impl IdealObserver<'_> {
             .collect()
     }
 
-    /// Removes the candidates that would see something else in this cell.
+    /// Removes the candidates whose view of this cell would differ.
     fn see(&self, left: &mut Vec<Candidate>, cell: Cell) {
         let seen = self.view(cell, 0);
         left.retain(|candidate| self.view(candidate.at, candidate.turned) == seen);

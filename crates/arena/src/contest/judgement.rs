@@ -141,7 +141,7 @@ pub(super) fn stands_for(
 enum Matched {
     /// The true way with this index.
     Way(usize),
-    /// The beginning of a way that was not driven to its end.
+    /// Beginning of a way that was not driven to its end.
     Stub,
     /// No true way, or one that is on the map already.
     Nothing,
@@ -157,7 +157,8 @@ struct Chain {
 struct Chart<'a> {
     stands_for: &'a BTreeMap<u32, Cell>,
     truth: &'a TrueGraph,
-    /// Links of each place, and where they lead. A link from a place to itself is listed twice.
+    /// Links of each place, with the places they lead to. A link from a place to itself is listed
+    /// twice.
     links: BTreeMap<u32, Vec<(usize, u32)>>,
 }
 

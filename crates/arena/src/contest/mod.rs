@@ -1,4 +1,4 @@
-//! Sends every system into every kind of world, and judges all by the same truth.
+//! Sends every system into every kind of world, and judges all systems by the same truth.
 //!
 //! A [`Contest`] sends one [`Contestant`] into one drawing. The contestant learns. It is put down
 //! somewhere and localizes; then it is put down somewhere else and drives to the goal. Its map is

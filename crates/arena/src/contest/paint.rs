@@ -56,7 +56,8 @@ mod tests {
     use super::*;
     use crate::diktiometry::{Office, OfficeConfig};
 
-    /// A cell with a way north; east of the next cell there is another way.
+    /// Returns a maze with a cell whose way leads north; east of the next cell there is another
+    /// way.
     const BEND: &str = "\
 o---o---o
 |     G |

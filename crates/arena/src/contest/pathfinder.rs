@@ -9,12 +9,12 @@ use tolman_systems::diktiometry::{Diktiometer, Eye, Wayfinder};
 
 use crate::BoxError;
 
-/// The whole diktiometry: it learns a map, and finds its way on the map after it was put down
+/// The whole diktiometry: learns a map, and finds its way on the map after it was put down
 /// anywhere.
 #[derive(Debug)]
 pub(super) struct Pathfinder<E> {
     learner: Diktiometer<E>,
-    /// Finds the way since it was put down; `None` before.
+    /// Finder of the way since the robot was put down; `None` before.
     finder: Option<Wayfinder<E>>,
     eye: E,
     seed: u64,

@@ -41,8 +41,7 @@ pub struct Contest<'a> {
     pub starts: u32,
     /// Seed of all random numbers.
     pub seed: u64,
-    /// Measures the contestant's computing time; `None` if that is not wanted. Nothing else depends
-    /// on it.
+    /// Clock that measures the contestant's computing time, or `None`. Nothing else depends on it.
     pub stopwatch: Option<Stopwatch>,
 }
 
@@ -218,7 +217,7 @@ impl Located {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Home {
     /// Driven distance over that of the shortest way; `None` if it did not arrive within
-    /// [`Contest::LIMIT`] times that.
+    /// [`Contest::LIMIT`] times that length.
     pub over_shortest: Option<f64>,
     /// Number of time steps in which it touched something.
     pub bumps: u32,
@@ -387,7 +386,8 @@ impl<'a> Contest<'a> {
         }
     }
 
-    /// Returns where the robot is put during learning without being told; `None` if it is not.
+    /// Returns the cell and direction to which the robot is carried, untold, while it learns, or
+    /// `None` without a kidnapping.
     fn kidnapping(&self) -> Option<(Cell, Direction)> {
         let is_kidnapped = self.condition == Condition::Kidnapping;
         let mut rng = stream(self.seed, KIDNAPPING_STREAM);
@@ -453,11 +453,11 @@ pub(super) struct Bout {
     pub(super) outing: Box<dyn Outing>,
     /// Whether it was lifted, and has made no step since.
     is_lifted: bool,
-    /// Cell that each place of the map stands for.
+    /// Index of the task's first time step.
     stands_for: BTreeMap<u32, Cell>,
 }
 
-/// A task under way.
+/// Number of time steps before the task in which the robot touched something.
 pub(super) struct Pursuit {
     task: Task,
     /// Distance driven after which it ends, m.
@@ -473,10 +473,10 @@ pub(super) struct Pursuit {
     driven: f64,
     /// The last time step that was counted.
     until: usize,
-    /// Metres driven when it last had made a cell's way, and actions since.
+    /// Distance driven when it last had advanced by a cell, m, and number of actions since.
     before_last: f64,
     idle: u32,
-    /// Metres until it first was at the goal that it was sent to.
+    /// Distance driven until it first was at the goal that it was sent to, m; `None` before.
     arrived: Option<f64>,
     /// Position where the robot was put, and the index of the next pose of its path.
     put: Option<(Point, usize)>,
@@ -505,7 +505,7 @@ pub(super) struct TrueVisits {
 }
 
 impl TrueVisits {
-    /// Notes what an action came to, before which the robot was at `before`.
+    /// Records the result of an action, before which the robot was at `before`.
     pub(super) fn note(&mut self, outing: &dyn Outing, before: Point, squares: Squares) {
         let after = outing.path().last().map_or(before, |pose| pose.position);
         let visits = outing.visit_count();
@@ -523,8 +523,8 @@ impl TrueVisits {
         }
     }
 
-    /// Returns the places that it was at by its own account, `named`, in order, with the cells
-    /// where it truly was.
+    /// Returns the places that the system says it visited, `named`, in order, with the cells where
+    /// the robot truly was.
     fn visits(self, named: Vec<Option<u32>>) -> Vec<PlaceVisit> {
         if named.is_empty() {
             return self.beliefs;
@@ -562,8 +562,8 @@ impl Bout {
         last.map_or_else(Point::origin, |pose| pose.position)
     }
 
-    /// Begins a task, which ends at the latest when it has driven `most` metres. After as many
-    /// metres as `kidnapping` says it is put elsewhere, and not told.
+    /// Begins a task, which ends at the latest after `most` metres of driving. After the distance
+    /// that `kidnapping` gives, the robot is put elsewhere without being told.
     pub(super) fn set_out(
         &mut self,
         task: Task,
@@ -590,8 +590,8 @@ impl Bout {
         }
     }
 
-    /// Makes the next action of a task and returns how the task ended, once it has. `see` is shown
-    /// what the action came to, and where the robot was before.
+    /// Makes the next action of a task. Returns the end of the task once it has ended. `see` is
+    /// shown the result of the action, and where the robot was before.
     pub(super) fn go_on(
         &mut self,
         pursuit: &mut Pursuit,
@@ -642,7 +642,7 @@ impl Bout {
         (is_over || self.outing.is_out_of_time()).then_some(TaskEnd::OutOfTime)
     }
 
-    /// Returns how a task went that ended so.
+    /// Returns the record of a task that ended by `end`: its bumps, arrival and distance.
     pub(super) fn driven(&self, pursuit: &Pursuit, end: TaskEnd) -> Driven {
         Driven {
             end,
@@ -653,8 +653,8 @@ impl Bout {
         }
     }
 
-    /// Lets it pursue a task until it is done, gives up, or has driven too far. `see` is shown what
-    /// each action came to, and where the robot was before.
+    /// Lets the system pursue a task until it is done, gives up, or has driven too far. `see` is
+    /// shown the result of each action, and where the robot was before.
     pub(super) fn pursue(
         &mut self,
         mut pursuit: Pursuit,
@@ -700,7 +700,7 @@ impl Bout {
         self.learned(driven, been)
     }
 
-    /// Begins to learn. During that, the robot is put where `kidnapping` says.
+    /// Begins to learn. The robot is put elsewhere as `kidnapping` says.
     pub(super) fn begin_to_learn(&mut self, kidnapping: Option<(Cell, Direction)>) -> Pursuit {
         let kidnapping = kidnapping.map(|(cell, way)| {
             let pose = Pose::new(self.squares.middle(cell), heading_of(way));

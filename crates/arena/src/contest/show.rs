@@ -32,7 +32,7 @@ pub struct ShowRecord {
 pub struct FoundOut {
     /// Its answer.
     pub outcome: LocateOutcome,
-    /// Whether the robot stayed where it was put down. The robot of a system that only tracks it is
+    /// Whether the robot stayed where it was put down. A system that only tracks its robot has it
     /// put back.
     pub was_put_down: bool,
     /// Number of actions.
@@ -92,7 +92,7 @@ impl Contest<'_> {
 /// The way to the goal of a robot that was not lifted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WayHome {
-    /// Metres driven until it was at the goal; `None` if it did not arrive.
+    /// Distance driven until it was at the goal, m; `None` if it did not arrive.
     pub metres: Option<f64>,
     /// Length of the shortest way to the goal from the cell where it was, m.
     pub shortest: f64,
@@ -166,7 +166,7 @@ impl Bout {
         }
     }
 
-    /// Begins the way to the goal, with the metres of the shortest.
+    /// Begins the way to the goal. The shortest way has this length, m.
     pub(super) fn begin_to_go_home(&mut self) -> (Pursuit, f64) {
         let cell = self.squares.cell_at(self.here());
         let shortest = self.maze.metres_to_goal(cell, self.squares.pitch);

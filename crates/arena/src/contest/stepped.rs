@@ -1,4 +1,5 @@
-//! A contest at the pace of who looks: action by action, with the next task chosen on the way.
+//! Plays a contest action by action, as fast as the caller wants, with the next task chosen on the
+//! way.
 
 use core::fmt;
 
@@ -133,7 +134,7 @@ impl SteppedContest {
         self.ended(TaskEnd::OutOfTime)
     }
 
-    /// Returns the result of the task that was under way until now and ended so.
+    /// Ends the task under way by `end` and returns its result, or `None` if there is none.
     fn ended(&mut self, end: TaskEnd) -> Option<TaskRecord> {
         match core::mem::replace(&mut self.stage, Stage::Idle) {
             Stage::Idle => None,

@@ -74,13 +74,13 @@ impl TrueGraph {
         }
     }
 
-    /// Returns the places.
+    /// Returns the cells that are places.
     #[must_use]
     pub const fn places(&self) -> &BTreeSet<Cell> {
         &self.places
     }
 
-    /// Returns the ways.
+    /// Returns the ways between places, by number.
     #[must_use]
     pub fn ways(&self) -> &[TrueWay] {
         &self.ways

@@ -16,10 +16,10 @@ use crate::pioneer::calibrated;
 /// no distance.
 const STEPS_A_METRE: f64 = 20.0;
 
-/// Share of its belief about one cell from which it is sure where it is.
+/// Minimum share of its belief in one cell at which it is sure where it is.
 const SURE: f64 = 0.95;
 
-/// Sends a baseline from where a system is put down, on the laser Pioneer.
+/// Sends a baseline from the positions where systems are put down, on the laser Pioneer.
 pub(super) struct Sender<'a> {
     contest: &'a Contest<'a>,
     agent: Agent,
@@ -55,7 +55,7 @@ impl<'a> Sender<'a> {
         Ok(self.cast.mind(self.agent, &self.course, &trial.robot)?)
     }
 
-    /// Lets it drive to the goal from each place, and returns the results.
+    /// Lets the baseline drive to the goal from each place, and returns the results.
     pub(super) fn homes(&self) -> Result<Vec<Home>, BoxError> {
         let starts = (0_u64..).zip(self.contest.put_downs());
         starts
@@ -85,8 +85,7 @@ impl<'a> Sender<'a> {
     /// Lets the unlocalized oracle, which has the true map, localize on its way to the goal, and
     /// returns its answers. The other baselines give none.
     ///
-    /// It is sure under the same condition as the systems: when most of its belief is about one
-    /// cell.
+    /// It is sure under the same condition as the systems: when most of its belief is in one cell.
     pub(super) fn found(&self) -> Result<Vec<Located>, BoxError> {
         if self.agent != Agent::UnlocalizedOracle {
             return Ok(Vec::new());
@@ -132,7 +131,7 @@ impl<'a> Sender<'a> {
     }
 }
 
-/// Returns its most likely position, if enough of the belief is near it.
+/// Returns its most likely position, if enough of the belief is near that position.
 fn sure_of(belief: &[Guess], pitch: f64) -> Option<Point> {
     let point = |guess: &Guess| match guess.at {
         Position::Point(point) => Some(point),

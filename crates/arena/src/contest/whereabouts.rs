@@ -38,7 +38,7 @@ impl Squares {
     }
 }
 
-/// Returns the place that a belief names first. For a position, that is the nearest place.
+/// Returns the place that a belief names first. For a position, this is the nearest place.
 pub(super) fn believed(belief: &[Guess], map: impl Fn() -> MapView) -> Option<u32> {
     match belief.first()?.at {
         Position::Place(id) => Some(id),

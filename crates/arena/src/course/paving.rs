@@ -75,7 +75,7 @@ impl Paving {
         maze
     }
 
-    /// Adds to the maze what one wall of the world prevents.
+    /// Adds to the maze the walls that one wall of the world makes.
     fn put_up(&self, maze: &mut Maze, wall: &WallSegment) {
         for cell in self.near(wall) {
             let centre = self.centre(cell);
@@ -156,8 +156,8 @@ impl Paving {
         steps.filter_map(move |step| self.cell_at(point + self.pitch * step))
     }
 
-    /// Returns the length of corridor that a square stands for, m: the body's centre only has the
-    /// width that the body leaves.
+    /// Returns the length of corridor that a square stands for, m. The corridor is as wide as the
+    /// body leaves room for its centre.
     pub(super) fn metres_per_cell(&self, corridor_width: f64) -> f64 {
         let left = (corridor_width - 2.0 * self.radius).max(self.pitch);
         self.pitch * self.pitch / left
@@ -172,8 +172,8 @@ impl Paving {
         Some(Pose::new(position, tolman_control::heading_of(direction)))
     }
 
-    /// Returns the middle between what bounds the body to the left and to the right of a square as
-    /// it looks along `direction`.
+    /// Returns the middle between the obstacles to the left and to the right of a square, for a
+    /// body that looks along `direction`.
     pub(super) fn amid(&self, maze: &Maze, cell: Cell, direction: Direction) -> Point {
         let to = |side| f64::from(run(maze, cell, side));
         let (left, right) = (direction.left(), direction.right());
@@ -183,7 +183,7 @@ impl Paving {
     }
 }
 
-/// Returns how many squares the body can go straight ahead from one.
+/// Returns the number of squares that the body can go straight ahead from `cell`.
 fn run(maze: &Maze, cell: Cell, direction: Direction) -> u32 {
     let ahead = core::iter::successors(Some(cell), |cell| maze.beside(*cell, direction));
     ahead.skip(1).count() as u32

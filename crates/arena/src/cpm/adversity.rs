@@ -73,7 +73,7 @@ impl SensesLandmarks for OneSensor {
     }
 }
 
-/// Returns the result of the first episode, and whether the robot truly is at the goal at its end.
+/// Plays the first episode. Returns its result, and whether the robot truly ends at the goal.
 fn search<B: CpmRobot>(
     body: B,
     width: f64,
@@ -164,9 +164,9 @@ fn star(branches: u32, width: f64) -> (World, Pose) {
     (world, Pose::new(end(0), Heading::from_radians(PI)))
 }
 
-/// The robot comes to a junction of more branches than a feature has room for. "The vector's size
-/// might be more than ten if the junction size is larger than five ways." In corridors of its width
-/// the middle is a room whose walls it does not see.
+/// A junction may have more branches than a feature has room for. "The vector's size might be more
+/// than ten if the junction size is larger than five ways." In corridors of its width the middle is
+/// a room whose walls the robot does not see.
 #[test]
 fn junctions_of_many_branches_end_in_an_error_or_as_it_is_said() {
     for (branches, width) in [(5, 0.25), (8, 0.15), (10, 0.12), (10, 0.25)] {

@@ -36,7 +36,7 @@ pub struct BendLikeness {
 
 impl BendLikeness {
     /// Counts the fragments that can be reached and have a cell between the places at their ends;
-    /// of others nothing is observed. O(fragments² · cells).
+    /// nothing is observed of others. O(fragments² · cells).
     #[must_use]
     pub fn of(maze: &Maze) -> Self {
         let fragments = TrueFragments::of(maze);

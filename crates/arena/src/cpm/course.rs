@@ -9,10 +9,11 @@ use crate::course::{Course, CourseError, Terrain};
 pub const CORRIDOR_WIDTH: f64 = 0.25;
 
 /// Minimum and maximum width of corridors, m, at which Mazes 1 to 3 are learned correctly. In
-/// others the robot takes bends for junctions and overlooks junctions.
+/// others the robot mistakes bends for junctions and overlooks junctions.
 const WIDTHS: (f64, f64) = (0.20, 0.30);
 
-/// Returns a maze file as a course from its start for the e-puck; `name` is for one that has none.
+/// Returns a maze file as a course from its start for the e-puck; `name` is used if the file has
+/// none.
 ///
 /// # Errors
 /// [`CourseError::NoStart`], [`CourseError::Unseen`].
@@ -42,7 +43,7 @@ pub fn epuck_course_on(name: &str, terrain: &Terrain) -> Result<Course, CourseEr
     }
 }
 
-/// Returns the width of the corridors, if the e-puck can recognize such corridors.
+/// Returns the width of the corridors, m, if the e-puck can recognize corridors so wide.
 fn seen(width: Option<f64>) -> Result<f64, CourseError> {
     let width = width.unwrap_or(CORRIDOR_WIDTH);
     let (least, most) = WIDTHS;

@@ -12,24 +12,23 @@ use crate::course::Course;
 /// *asymmetrical*.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Distinctness {
-    /// The most similar pair of walks among those that must differ: along different fragments, in
-    /// both directions, and along one fragment from both its ends. `None` if there is only one
-    /// walk.
+    /// Most similar pair of walks that must differ: along different fragments, in both directions,
+    /// and along one fragment from both its ends. `None` if there is only one walk.
     pub most_alike: Option<WalkPair>,
-    /// The two walks along one fragment that are least alike.
+    /// Least similar pair of walks along one fragment.
     pub least_alike: Option<WalkPair>,
 }
 
 /// Two walks and how similar they are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WalkPair {
-    /// One of them, by the places it led from and to.
+    /// First walk, by the places it led from and to.
     pub one: (Cell, Cell),
-    /// The other fragment, by the places it led from and to.
+    /// Second walk, by the places it led from and to.
     pub other: (Cell, Cell),
-    /// Whether the other is compared as it was walked, or inverted.
+    /// Whether the second walk is compared as it was walked, or inverted.
     pub sense: Sense,
-    /// Similarity f_S of the two, 0 to 1.
+    /// Similarity f_S of the two walks, 0 to 1.
     pub score: f64,
 }
 
@@ -41,8 +40,8 @@ struct Walked {
     patterns: Vec<PatternId>,
 }
 
-/// Lets the paper's robot walk every fragment both ways once with each seed, and compares all walks
-/// with all, both ways, as online CPM does.
+/// Lets the paper's robot walk every fragment both ways once with each seed, and compares every two
+/// walks, both ways, as online CPM does.
 ///
 /// O(walks² · length) comparisons of patterns.
 ///

@@ -16,11 +16,10 @@ use super::world::shortest_covering_walk;
 pub struct Exploration {
     /// Reason why the exploration ended, or `None` if it broke off.
     pub done: Option<Done>,
-    /// Whether each place and fragment of the maze is on the map once, and all are joined as they
-    /// truly are.
+    /// Whether each place and fragment of the maze is on the map once, and all are joined as in the
+    /// maze.
     pub is_map_right: bool,
-    /// Number of fragments walked, each as often as it was, until the robot knew that it had walked
-    /// all.
+    /// Number of walks along fragments until the robot knew that it had walked all.
     pub traversals: u32,
     /// Number of fragments of the maze that can be reached.
     pub fragments: u32,
@@ -29,7 +28,7 @@ pub struct Exploration {
     pub best: Option<u32>,
     /// Time when the last fragment was walked, s; `None` if one was not.
     pub seconds: Option<f64>,
-    /// Theorem 1's bound of that time, with the times that the robot took, s.
+    /// Theorem 1's bound of that time, with the robot's own durations, s.
     pub bound: f64,
     /// Number of time steps in which its body touched a wall.
     pub bumps: u32,

@@ -25,7 +25,7 @@ pub struct WayOut {
     pub cells: u32,
 }
 
-/// Returns what the robot sees to stand in a cell.
+/// Returns the landmark in a cell, or `None` if it holds neither the start nor a goal.
 pub(crate) fn landmark_at(maze: &Maze, cell: Cell) -> Option<Landmark> {
     if maze.start().is_some_and(|(start, _)| start == cell) {
         return Some(Landmark::Start);
@@ -67,7 +67,7 @@ pub(super) fn along(maze: &Maze, from: Cell, out: Direction) -> Option<(Vec<Cell
     Some((cells, came))
 }
 
-/// Returns the directions in which one who goes over these cells leaves each but the last.
+/// Returns the direction in which each cell but the last is left.
 pub(super) fn headings(maze: &Maze, cells: &[Cell]) -> Vec<Direction> {
     let steps = cells.windows(2);
     steps
@@ -96,13 +96,13 @@ pub(super) fn bends(headings: &[Direction]) -> Vec<Quarters> {
     headings.windows(2).map(bend).collect()
 }
 
-/// Returns where one looks who goes from one cell to another.
+/// Returns the heading from one cell to another.
 fn heading_between(from: Cell, to: Cell) -> Heading {
     let step = |from: u16, to: u16| f64::from(to) - f64::from(from);
     Heading::of(Vector::new(step(from.x, to.x), step(from.y, to.y)))
 }
 
-/// Counter-clockwise from a heading of 0.
+/// Directions counter-clockwise from a heading of 0.
 pub(super) const DIRECTIONS: [Direction; 4] = [
     Direction::East,
     Direction::North,
@@ -155,8 +155,8 @@ impl TrueFragments {
     }
 
     /// Returns the ways of a drive over these cells, in order; `None` if it left a place where
-    /// there is no way. A drive that turns back within a fragment was along it. One that only looks
-    /// into the next cell and comes back was not.
+    /// there is no way. A drive that turns back within a fragment counts as along it. One that only
+    /// looks into the next cell and comes back does not.
     pub(super) fn driven(&self, cells: impl IntoIterator<Item = Cell>) -> Option<Vec<WayOut>> {
         let mut cells = cells.into_iter();
         let (Some(mut at), mut driven) = (cells.next(), Vec::new()) else {
@@ -191,8 +191,8 @@ impl TrueFragments {
         Some(driven)
     }
 
-    /// Returns the graph of the maze's cells in which an arc stands for each way, from place to
-    /// place, that has a length.
+    /// Returns a graph of the maze's cells, with an arc for each way, from place to place, that has
+    /// a length.
     pub(super) fn graph(&self, maze: &Maze, length: impl Fn(WayOut) -> Option<u32>) -> Arcs {
         let node = |cell: Cell| maze.grid().index(cell) as u32;
         let arc = |(from, _, way): (Cell, Direction, WayOut)| {
@@ -220,8 +220,8 @@ impl TrueFragments {
         forward.count() as u32
     }
 
-    /// Returns all ways out of all places: the place, the direction in which one leaves it, and the
-    /// way.
+    /// Returns all ways out of all places: the place, the direction in which the way leaves it, and
+    /// the way.
     pub fn ways(&self) -> impl Iterator<Item = (Cell, Direction, WayOut)> + '_ {
         let ways = self.ways.iter();
         ways.map(|((from, out), way)| (*from, *out, *way))

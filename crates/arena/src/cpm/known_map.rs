@@ -8,10 +8,10 @@ use super::fragments::{WayOut, landmark_at};
 /// The map of a perfect reasoner of the paper's kind after the same walk: the baseline of a trial.
 ///
 /// Nothing that the paper's robot perceives tells one junction from another. Two visits are known
-/// to be of one place for two reasons only. Either a fragment was walked twice, which makes its
-/// ends one ("junc(𝔸₁⁺) = junc(𝔸₂⁺) and junc(𝔸₁⁻) = junc(𝔸₂⁻)", section 4.3), or start or goal were
-/// seen there. A junction that was met by different fragments only stays several. Fragments are
-/// identified by ground truth, so this map depends on no mapper.
+/// to be of one place for two reasons only. Either a fragment was walked twice, so that its ends
+/// coincide ("junc(𝔸₁⁺) = junc(𝔸₂⁺) and junc(𝔸₁⁻) = junc(𝔸₂⁻)", section 4.3), or start or goal were
+/// seen there. A junction that was met only by different fragments stays several junctions.
+/// Fragments are identified by ground truth, so this map depends on no mapper.
 ///
 /// The inferences are complete: visits of one place that were left by one port are one fragment
 /// walked twice.
@@ -25,7 +25,7 @@ pub(super) struct KnownMap<'a> {
     arcs: Vec<(u32, u32, u32)>,
 }
 
-/// The robot at a place, once.
+/// One visit of the robot at a place.
 #[derive(Clone, Copy, Debug)]
 struct Visit {
     cell: Cell,
@@ -134,8 +134,8 @@ mod tests {
     use tolman_control::heading_of;
     use tolman_maze::Direction;
 
-    /// Returns the shortest known way after walks by the directions in which each place is left,
-    /// all cells as long as one.
+    /// Returns the shortest known way after some walks, in a maze whose cells are all equally long.
+    /// Walks and way are given by the directions in which each place is left.
     fn shortest(text: &str, directions: &[Direction]) -> Option<u32> {
         let maze = tolman_maze::read(text).unwrap().maze;
         let fragments = TrueFragments::of(&maze);

@@ -6,8 +6,8 @@ use tolman_robot::Landmark;
 
 use super::fragments::{DIRECTIONS, along};
 
-/// Positions of a map's parts in the maze, for pictures; the map itself has no coordinates. Both
-/// are walked together from the start, port by port, as far as they agree.
+/// Positions of a map's parts in the maze, for pictures; the map itself has no coordinates. Map and
+/// maze are walked together from the start, port by port, as far as they agree.
 ///
 /// ```
 /// use tolman_arena::cpm::{epuck, epuck_course, learn, CpmTrial, Layout};
@@ -37,7 +37,7 @@ pub struct Layout {
 /// An unexplored port.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OpenPort {
-    /// The port.
+    /// Port of the map.
     pub port: Port,
     /// The cell of its junction.
     pub cell: Cell,
@@ -50,22 +50,22 @@ pub struct OpenPort {
 pub struct Lie {
     /// Cells from − to +, with the places at both ends.
     pub cells: Vec<Cell>,
-    /// Whether the map has both its ends where the maze has them.
+    /// Whether the fragment's ends are where the maze has them.
     pub fit: Fit,
 }
 
-/// Whether map and maze agree.
+/// Agreement of map and maze.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Fit {
     /// Map and maze agree.
     Agrees,
-    /// The map says that it leads to another place, or another port of it.
+    /// The map states that the fragment leads to another place, or to another port of it.
     Astray,
 }
 
 impl Layout {
-    /// Lays a map over the maze it was learned in. Nothing is laid of a map without a start, or
-    /// where the maze has none. O(fragments · cells).
+    /// Lays a map over the maze it was learned in. The layout is empty if map or maze has no start.
+    /// O(fragments · cells).
     #[must_use]
     pub fn of(map: &CpMap, maze: &Maze) -> Self {
         let mut layout = Self::default();
@@ -109,8 +109,8 @@ impl Layout {
         layout
     }
 
-    /// Lays a fragment that leads from one of its ends out of a cell. Gives the place at its other
-    /// end, its cell and the direction of its port 0, if that is new.
+    /// Lays a fragment that leads from one of its ends out of a cell. Returns the place at its
+    /// other end, its cell and the direction of its port 0, if the place is new.
     fn lay(
         &mut self,
         map: &CpMap,

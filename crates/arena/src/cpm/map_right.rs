@@ -13,7 +13,7 @@ use super::layout::{Fit, Layout};
 /// - each of its fragments has to be another true one that joins the same ports;
 /// - together they have to be the fragments that were walked.
 ///
-/// So nothing is on the map twice, nothing was taken for another, and nothing is unconnected.
+/// So nothing is on the map twice, confused with another or unconnected.
 ///
 /// O(fragments · cells).
 pub(super) fn is_map_right(
@@ -38,7 +38,7 @@ pub(super) fn is_map_right(
 }
 
 /// Returns whether a map is that of the whole maze. Each place and fragment that can be reached
-/// from the start is on it once, joined as in truth. O(fragments · cells).
+/// from the start must be on it once, joined as in the maze. O(fragments · cells).
 #[must_use]
 pub fn is_whole_map_right(map: &CpMap, maze: &Maze) -> bool {
     let fragments = TrueFragments::of(maze);
@@ -46,7 +46,7 @@ pub fn is_whole_map_right(map: &CpMap, maze: &Maze) -> bool {
     is_map_right(map, maze, &fragments, &all)
 }
 
-/// Returns whether a place of a map could be a cell, by what is seen there.
+/// Returns whether a place of a map could be a cell, by its ports and its landmark.
 fn is_like(junction: &Junction, maze: &Maze, cell: Cell) -> bool {
     maze.degree(cell) == junction.ports.len() && junction.landmark == landmark_at(maze, cell)
 }
@@ -60,7 +60,7 @@ mod tests {
     use super::super::fragments::tests::THREE_WAYS;
     use super::*;
 
-    /// Start, both crossings, goal: each with its landmark and as many ports.
+    /// Landmark and number of ports of each place: start, both crossings, goal.
     const PLACES: [(Option<Landmark>, usize); 4] = [
         (Some(Landmark::Start), 1),
         (None, 4),
@@ -117,7 +117,7 @@ mod tests {
         is_map_right(map, &maze, &fragments, &walked.collect())
     }
 
-    /// Returns the number of the true fragment out of a cell in a heading.
+    /// Returns the number of the true fragment that leaves a cell in a heading.
     fn leaving(x: u16, y: u16, degrees: f64) -> u32 {
         let maze = tolman_maze::read(THREE_WAYS).unwrap().maze;
         let heading = tolman_geom::Heading::from_degrees(degrees);

@@ -24,7 +24,7 @@ const STEP_LIMIT: u32 = 100_000;
 /// A loop with two forks, each with a way to a dead end; one of these is the goal.
 const FORKS: &str = include_str!("../../mazes/forks.maze");
 
-/// Returns a maze with corridors for a Pioneer.
+/// Returns a maze as a course with corridors for a Pioneer.
 fn course(text: &str) -> Course {
     Course::new("", tolman_maze::read(text).unwrap().maze, CORRIDOR_WIDTH).unwrap()
 }
@@ -32,7 +32,8 @@ fn course(text: &str) -> Course {
 /// A Pioneer that looks like an e-puck.
 type Epuck = RingAsEpuck<Simulated<LaserPioneer>>;
 
-/// Returns the robot at the start of a maze, which looks like an e-puck, and how it is driven.
+/// Returns the robot at the start of a maze, which looks like an e-puck, with the configuration of
+/// its walker.
 fn placed(course: &Course, robot: LaserPioneerConfig, seed: u64) -> (Epuck, WalkerConfig) {
     let measures = ring_measures(&robot, CORRIDOR_WIDTH);
     let config = measures.walker_config();
@@ -48,7 +49,7 @@ fn truth(epuck: &Epuck) -> &Truth {
     epuck.robot().truth()
 }
 
-/// Lets `cpm` pursue a task to its end, and returns how it ended and the steps it took.
+/// Lets `cpm` pursue a task to its end. Returns its final standing and the number of steps.
 fn pursue(cpm: &mut Cpm, epuck: &mut Epuck, task: Task) -> Ended {
     let mut robot = Limited::new(epuck, STEP_LIMIT);
     let ended = run(&mut robot, cpm, task).unwrap();
@@ -83,7 +84,7 @@ fn play(mut cpm: Cpm, mut epuck: Epuck, maze: &Maze) {
     assert!(8 * reached.steps < explored.steps, "{reached:?}");
 }
 
-/// The calibrated motors miss turns by 12 % and distances by 25 %.
+/// Learns with calibrated motors that miss turns by 12 % and distances by 25 %.
 #[test]
 fn a_pioneer_learns_a_maze_by_its_laser_and_goes_to_the_goal() {
     let forks = course(FORKS);
@@ -94,7 +95,7 @@ fn a_pioneer_learns_a_maze_by_its_laser_and_goes_to_the_goal() {
     }
 }
 
-/// As in the paper: patterns of a learning maze, no dead reckoning.
+/// Learns as in the paper: with patterns of a learning maze and without dead reckoning.
 #[test]
 fn a_pioneer_learns_as_the_paper_s_robot_does() {
     let learning = course(include_str!("../../mazes/cpm-learning.maze"));

@@ -9,8 +9,8 @@ use tolman_systems::cpm::{
 
 use crate::run::{self, InRun};
 
-/// Number of time steps after which a robot on CPM has failed, whatever it still hopes for: 36
-/// hours of the paper's.
+/// Number of time steps after which a robot on CPM has failed, in any case: 36 hours of the
+/// paper's.
 const STEP_LIMIT: u32 = 10_000_000;
 
 impl<B: CpmRobot> InRun for Walker<B> {

@@ -26,7 +26,7 @@ pub struct PutDown<'a> {
     pub here: usize,
     /// Patterns that the robot learned before.
     pub patterns: &'a CommonPatterns,
-    /// The robot.
+    /// Configuration of the robot.
     pub robot: EpuckConfig,
     /// Its way to the first place.
     pub approach: Approach,
@@ -54,15 +54,16 @@ pub struct PutDownRecord {
     /// Probability that an ideal observer would know maze, fragment and direction before the first
     /// place, by the corridor's bends, 0 to 1.
     pub knowable_by_bends: f64,
-    /// Probability that the observer would know them if it saw more: the place ahead, and the ways
-    /// to the sides of the place behind, if it stands beside that. No robot knows more on average.
+    /// Probability that the observer would know them if it saw more, 0 to 1: the place ahead, and
+    /// the side ways of a place behind that it stands beside. No robot knows more on average.
     pub knowable_by_places: f64,
-    /// Whether the robot knew maze, fragment and direction then; false if it had observed nothing.
+    /// Whether the robot knew maze, fragment and direction before the first place; false if it had
+    /// observed nothing.
     pub is_right_under_way: bool,
-    /// Whether the robot was right at that place.
+    /// Whether the robot was right at the first place.
     pub is_right_at_first_place: bool,
-    /// Whether the robot was right within one further fragment (section 8). That is at that place
-    /// if it was sure there, else before it came to the next.
+    /// Whether the robot was right within one further fragment (section 8). A robot that was sure
+    /// at the first place is judged there, others before the next place.
     pub is_right_within_one_further: bool,
     /// Whether the robot was right at the last place, where it was sure or gave up.
     pub is_right_at_last: bool,
@@ -76,7 +77,7 @@ pub struct PutDownRecord {
 }
 
 impl KnownMaze<'_> {
-    /// Returns where a robot with this map may be put.
+    /// Returns the spots inside the fragments that the map knows, where a robot may be put down.
     fn spots(&self) -> Vec<Spot> {
         Spot::all(&self.course.maze, |way| {
             let mut known = self.learned.truth.values();

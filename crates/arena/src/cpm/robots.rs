@@ -52,7 +52,7 @@ pub fn walker_config(robot: &EpuckConfig, width: f64) -> Result<WalkerConfig, Ra
     Ok(WalkerConfig::paper(measures, width))
 }
 
-/// Returns a response curve turned round, by the millimetre.
+/// Returns a response curve with its axes exchanged, sampled every millimetre.
 fn curve(response: &ResponseCurve) -> Result<RangeCurve, RangeCurveError> {
     let reach = libm::round(response.reach() * 1e3) as u32;
     let millimetres = (0..=reach).map(|millimetre| f64::from(millimetre) * 1e-3);

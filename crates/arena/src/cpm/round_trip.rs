@@ -19,11 +19,12 @@ use super::trial::CpmTrialError;
 /// These are the `observations` of the three episodes.
 #[derive(Clone, Debug)]
 pub struct RoundTrip {
-    /// Way from the start until the goal was found.
+    /// First way, from the start until the goal was found.
     pub there: EpisodeSummary,
-    /// Back to the start, or `None` if there was no goal.
+    /// Way back to the start, or `None` if the robot did not find the goal.
     pub back: Option<EpisodeSummary>,
-    /// Along the shortest way that is known then, or `None` if the robot did not come back.
+    /// Second way to the goal, the shortest that is known then. `None` if the robot did not come
+    /// back.
     pub again: Option<EpisodeSummary>,
     /// Number of unknown fragments it entered on the way back.
     pub tried: u32,
@@ -31,7 +32,7 @@ pub struct RoundTrip {
     pub given_up: u32,
     /// Common patterns from start to goal on the shortest way of the map before the way back.
     pub length_before: u32,
-    /// Length of that way afterwards, which is not longer.
+    /// Length of the shortest way after the way back, which is not longer.
     pub length_after: u32,
     /// The map at the end.
     pub map: CpMap,

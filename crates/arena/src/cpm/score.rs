@@ -15,21 +15,21 @@ use super::robots::SimulatedEpuck;
 /// place that was.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Closures {
-    /// Number of duplicates claimed that were that fragment, and of loops that were that place: on
-    /// arrival, or later.
+    /// Number of right claims, on arrival or later: duplicates of that fragment, and loops to that
+    /// place.
     pub right: u32,
     /// Number of arrivals at which a wrong or non-existent duplicate or loop was claimed, at once
-    /// or by a map that became the likeliest later. Each counts once, however much of the map is
-    /// wrong by it, and even if it is corrected later.
+    /// or by a map that became the likeliest later. Each counts once, even if it makes much of the
+    /// map wrong or is corrected later.
     pub wrong: u32,
-    /// Number of fragments that were walked again and are on the map at the end as another one.
+    /// Truth of a trial, by which it is scored.
     pub missed: u32,
 }
 
 /// Truth of a trial, for scoring.
 pub(super) struct Score<'a> {
     fragments: TrueFragments,
-    /// Loops closed rightly, and those that were not, on arrival.
+    /// Number of loops closed rightly on arrival.
     right: u32,
     missed: u32,
     /// The numbers of the walks that closed a loop wrongly.
@@ -40,7 +40,7 @@ pub(super) struct Score<'a> {
     walked: Vec<Walked>,
     /// The true way from − to + of each fragment of the map.
     pub(super) truth: BTreeMap<FragmentId, WayOut>,
-    /// The cell of each place of the map.
+    /// Cell of each place of the map.
     places: BTreeMap<JunctionId, Cell>,
     /// Observations of each true fragment when it was first walked.
     pub(super) lengths: BTreeMap<u32, u32>,
@@ -61,9 +61,9 @@ struct Base {
 /// A walk to the end of a fragment, as it truly was.
 struct Walked {
     turn: Turn,
-    /// None if it began on no fragment.
+    /// True fragment of the walk; `None` if it began on no fragment.
     way: Option<WayOut>,
-    /// The cell it led to.
+    /// Cell where the walk ended.
     here: Option<Cell>,
 }
 
@@ -163,7 +163,7 @@ impl<'a> Score<'a> {
         }
     }
 
-    /// Starts a map at a port, in a cell; its known fragments and places stay known.
+    /// Starts a map at a port, in a cell; keeps its known fragments and places.
     fn begin_at(&mut self, at: Port, cell: Option<Cell>) {
         self.base = cell.map(|cell| {
             self.places.insert(at.junction, cell);
@@ -176,10 +176,10 @@ impl<'a> Score<'a> {
         });
     }
 
-    /// Retraces the walks on a new map, which has its own names of fragments and places. An arrival
-    /// may make a fragment or a place of the map stand for two true ones. The first that does so
-    /// has closed a loop wrongly. Walks of a robot that was lost before do not count, as their
-    /// errors follow from that.
+    /// Retraces the walks on a new map, which has its own names of fragments and places. The first
+    /// arrival after which a fragment or a place stands for two true ones has closed a loop
+    /// wrongly. Walks of a robot that was lost before do not count, as their errors follow from
+    /// that.
     fn retrace(&mut self, map: &CpMap) {
         let Some(base) = &self.base else {
             return;
@@ -238,15 +238,15 @@ impl<'a> Score<'a> {
         }
     }
 
-    /// Returns whether a map is that of what was walked: each thing once, and joined as it truly
-    /// is.
+    /// Returns whether a map is right for the fragments that were walked: each thing once, and
+    /// joined as in the maze.
     pub(super) fn is_map_right(&self, map: &CpMap, maze: &Maze) -> bool {
         let walked = self.lengths.keys().copied().collect();
         is_map_right(map, maze, &self.fragments, &walked)
     }
 
-    /// Returns the length of the shortest way from start to goal over the fragments that were
-    /// walked, by observations.
+    /// Returns the length of the shortest way from start to goal over walked fragments, in
+    /// observations.
     pub(super) fn shortest_as_it_lies(&self, maze: &Maze) -> Option<u32> {
         let length = |way: WayOut| self.lengths.get(&way.fragment).copied();
         self.fragments.shortest(maze, length)
@@ -271,7 +271,7 @@ mod tests {
 
     use super::*;
 
-    /// A way from the start to a fork, from there to the goal, back, and home.
+    /// Walks from the start to a fork, from there to the goal, back, and home.
     #[test]
     fn a_walk_retraced_on_its_map_says_what_is_what() {
         let text = "start = 0 0 east\n\no---o---o---o\n|   |   |   |\no---o   o---o\n| S       G |\no---o---o---o\n";

@@ -16,22 +16,22 @@ use tolman_systems::cpm::Approach;
 pub(super) struct Spot {
     cell: Cell,
     heading: Direction,
-    /// The way it then is on.
+    /// Way that the robot is then on.
     pub(super) way: WayOut,
     /// The place behind.
     behind: PlaceAtEnd,
-    /// The bend of every cell between the places.
+    /// Bend of every cell between the places.
     bends: Vec<Quarters>,
-    /// Number of those cells behind it.
+    /// Number of cells of the fragment behind it.
     passed: usize,
     /// The place ahead.
     ahead: PlaceAtEnd,
 }
 
-/// A place at an end of a fragment, for one who goes along it.
+/// Place at an end of a fragment, as seen along the fragment.
 #[derive(Clone, Debug, PartialEq)]
 struct PlaceAtEnd {
-    /// Ways out of each, relative to the direction in which it is left or entered.
+    /// Ways out of the place, relative to the direction of travel.
     open: Vec<Quarters>,
     landmark: Option<Landmark>,
 }
@@ -45,7 +45,7 @@ pub(super) enum Looks {
     AtPlaces,
 }
 
-/// View from a spot to where the end of the fragment comes into sight.
+/// View from a spot up to where the end of the fragment comes into sight.
 #[derive(Clone, Debug, PartialEq)]
 struct View<'a> {
     /// The place behind, if it is seen.
@@ -67,7 +67,8 @@ impl PlaceAtEnd {
         }
     }
 
-    /// Returns what is seen of it from the cell beside it.
+    /// Returns the view of the place from the cell beside it: no landmark, and only ways to the
+    /// sides. With [`Looks::AtBends`] no way is seen.
     fn beside(&self, looks: Looks) -> Self {
         let open = match looks {
             Looks::AtBends => Vec::new(),
@@ -142,8 +143,7 @@ impl Spot {
 ///
 /// It knows the true mazes, and that each maze, and each spot of it, is equally likely. It
 /// recognizes all it looks at without error, from the cell behind on. The robot sees only a part of
-/// that cell and of the places. So on average no robot knows more than an observer that looks at
-/// both.
+/// that cell and of the places. So on average no robot knows more than this observer.
 pub(super) fn knowable(
     mazes: &[Vec<Spot>],
     here: usize,

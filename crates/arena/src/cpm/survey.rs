@@ -65,7 +65,7 @@ mod tests {
     use crate::cpm::trial::tests::maze_1;
     use crate::cpm::{SimulatedEpuck, epuck, walker_config};
 
-    /// An e-puck whose sensors still tell of the hand that carried it, until its next time step.
+    /// An e-puck whose sensors still report the hand that carried it, until its next time step.
     struct Carried {
         body: SimulatedEpuck,
         sensed: Option<EpuckSensing>,
@@ -131,8 +131,8 @@ mod tests {
         }
     }
 
-    /// Branches are counted from the one that it came by, also if a bend leaves it askew in a
-    /// junction.
+    /// Branches are counted from the one by which the robot came, even if a bend leaves it askew in
+    /// a junction.
     #[test]
     fn the_first_branch_leads_back() {
         let text = "start = 0 0 north\n\n\

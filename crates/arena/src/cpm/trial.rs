@@ -30,7 +30,7 @@ pub struct CpmTrial<'a> {
     pub course: &'a Course,
     /// Patterns that the robot learned before, if its mode uses them.
     pub patterns: &'a CommonPatterns,
-    /// The robot.
+    /// Configuration of the robot.
     pub robot: EpuckConfig,
     /// Mode of mapping.
     pub mode: Mode,
@@ -45,21 +45,20 @@ pub struct TrialRecord {
     pub first: Option<EpisodeSummary>,
     /// The second episode, if it came to an end.
     pub second: Option<EpisodeSummary>,
-    /// Whether the second episode's way was the shortest that could be known. The ends of a
-    /// fragment that was walked twice are known to be the same places, and start and goal are
-    /// known.
+    /// Whether the second episode's way was the shortest that could be known. A fragment walked
+    /// twice is known to have the same ends, and start and goal are known.
     pub is_shortest_known: bool,
-    /// Whether it was as short as any over the fragments that were walked as they truly lie, which
-    /// nothing need tell the robot.
+    /// Whether it was as short as any way over the walked fragments, with all places known. The
+    /// robot cannot always know that.
     pub is_shortest_as_it_lies: bool,
-    /// Whether the map from which the second episode is planned is right. Then it has each place
-    /// and fragment where the robot has been once, truly joined.
+    /// Whether the map from which the second episode is planned is right. Then it has each visited
+    /// place and fragment once, truly joined.
     pub is_map_right: bool,
     /// Counts of loops closed correctly and wrongly.
     pub closures: Closures,
-    /// Number of fragments walked in the first episode, each as often as it was.
+    /// Number of walks along fragments in the first episode.
     pub traversals: u32,
-    /// Number of fragments of the map at the end of it.
+    /// Number of fragments of the map at the end of the first episode.
     pub fragments: u32,
     /// Number of common patterns that the robot knows at the end.
     pub patterns: u32,
@@ -73,7 +72,7 @@ pub struct TrialRecord {
     pub path: Vec<Pose>,
     /// Step at which the second episode began.
     pub second_from: usize,
-    /// The map of the end of the first episode.
+    /// Map at the end of the first episode.
     pub map: CpMap,
     /// The true fragment of each fragment of the map.
     pub truth: BTreeMap<FragmentId, WayOut>,
@@ -110,7 +109,7 @@ pub fn learn(course: &Course, seed: u64) -> Result<CommonPatterns, CpmTrialError
     learn_by(course, epuck(), config, Lesson::Observations(1000), seed)
 }
 
-/// Learns the common patterns in a maze as any other robot that observes like this.
+/// Learns the common patterns in a maze by another robot, with its own walker.
 ///
 /// # Errors
 /// [`CpmTrialError`].
@@ -139,7 +138,7 @@ impl CpmTrial<'_> {
         config
     }
 
-    /// Returns the robot anywhere in its world.
+    /// Returns the robot at any pose in its world.
     pub(super) fn walker_at(&self, start: Pose) -> Result<Walker<SimulatedEpuck>, CpmTrialError> {
         let mut config = walker_config(&self.robot, self.course.corridor_width)?;
         config.heading = self.mode.heading();
@@ -148,8 +147,8 @@ impl CpmTrial<'_> {
         Ok(Walker::new(body, config))
     }
 
-    /// Lets the robot look where it is, and returns layer 3 with a map that begins there. It
-    /// follows the mode, except for `config`.
+    /// Lets the robot look round, and returns layer 3 with a map that begins there. It follows the
+    /// mode, except for `config`.
     pub(super) fn begin(
         &self,
         walker: &mut Walker<SimulatedEpuck>,
@@ -171,7 +170,7 @@ impl CpmTrial<'_> {
         self.watch(|_, _, _| {})
     }
 
-    /// [Plays](Self::play) both episodes. Calls `see` with every fragment of the first.
+    /// Plays both episodes like [`play`](Self::play). Calls `see` with every fragment of the first.
     ///
     /// # Errors
     /// [`CpmTrialError`] if it cannot be begun.
@@ -240,8 +239,8 @@ impl CpmTrial<'_> {
     }
 }
 
-/// Returns whether a drive was as short as the shortest way, by observations, give or take what
-/// walks vary by: 5 % and 8 observations.
+/// Returns whether a drive was as short as the shortest way, in observations. Walks vary by 5 % and
+/// 8 observations, which are tolerated.
 fn is_as_short(driven: u32, shortest: Option<u32>) -> bool {
     shortest.is_some_and(|shortest| f64::from(driven) <= 1.05 * f64::from(shortest) + 8.0)
 }
@@ -254,7 +253,7 @@ pub enum CpmTrialError {
     #[error(transparent)]
     Course(#[from] CourseError),
     /// The watcher of a robot broke its learning off.
-    #[error("broken off after {walks} fragments")]
+    #[error("the watcher stopped the lesson after {walks} fragments; let it run to its end")]
     BrokenOff {
         /// Number of walks.
         walks: u32,
@@ -268,7 +267,7 @@ pub enum CpmTrialError {
         ends.0, ends.1
     )]
     Unwalked {
-        /// The places it leads from and to.
+        /// The places at its ends.
         ends: (Cell, Cell),
     },
     /// The map leads to no goal.
@@ -295,7 +294,7 @@ pub enum CpmTrialError {
     /// The maps cannot be searched.
     #[error(transparent)]
     Localize(#[from] LocalizeError),
-    /// The map refuses what is done with it.
+    /// The map refuses a change.
     #[error(transparent)]
     Map(#[from] CpmError),
 }

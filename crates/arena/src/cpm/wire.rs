@@ -1,5 +1,5 @@
-//! The agent on the serial driver: a firmware that speaks the real robot's protocol and drives the
-//! simulated one.
+//! Drives the agent through the serial driver. A firmware speaks the real robot's protocol and
+//! drives the simulated one.
 
 use alloc::collections::VecDeque;
 use alloc::rc::Rc;
@@ -32,7 +32,7 @@ struct Firmware {
     body: SimulatedEpuck,
     /// Speeds of the wheels, steps per second.
     speeds: [i32; 2],
-    /// Angles that the wheels turned since it was switched on, rad.
+    /// Angles that the wheels have turned since it was switched on, rad.
     turned: [f64; 2],
     heard: Vec<u8>,
     answers: VecDeque<u8>,
@@ -104,12 +104,12 @@ impl Firmware {
     }
 }
 
-/// The other end of the line.
+/// Our end of the serial line.
 #[derive(Clone)]
 struct Line(Rc<RefCell<Firmware>>);
 
 impl Line {
-    /// Opens the driver on it; a landmark is what the simulation says.
+    /// Opens the driver on the line. Its landmarks are those of the simulation.
     fn robot(
         &self,
     ) -> Result<impl CpmRobot<Error = SerialError, Sensing = EpuckSensing> + use<>, SerialError>
@@ -159,7 +159,7 @@ fn line(seed: u64) -> Line {
     Line(Rc::new(RefCell::new(Firmware::new(simulated(seed)))))
 }
 
-/// Returns how the robot is driven whose encoders count steps.
+/// Returns the walker's configuration for a robot whose encoders count steps.
 fn config() -> WalkerConfig {
     let mut config = walker_config(&epuck(), WIDTH).unwrap();
     config.pilot.turn_tolerance = TURN_STEP;

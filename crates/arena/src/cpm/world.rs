@@ -41,23 +41,23 @@ pub struct MazePlace {
     pub position: Point,
     /// The landmark that stands there.
     pub landmark: Option<Landmark>,
-    /// The corridors' ends at it, counter-clockwise.
+    /// Ends of corridors at the place, counter-clockwise.
     pub ports: Vec<CorridorEnd>,
 }
 
 /// One end of a corridor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct CorridorEnd {
-    /// The corridor.
+    /// Number of the corridor.
     pub corridor: u32,
-    /// *Minus* is the place it was drawn from.
+    /// Sign of the end: *minus* where the corridor's drawing began.
     pub sign: Sign,
 }
 
 /// A port of a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct WorldPort {
-    /// The place.
+    /// Number of the place.
     pub place: u32,
     /// Its port, counter-clockwise.
     pub number: u32,
@@ -93,7 +93,7 @@ impl MazeCorridor {
         }
     }
 
-    /// Returns the direction in which one leaves by an end.
+    /// Returns the direction in which a robot leaves by an end.
     #[must_use]
     pub fn bearing(&self, sign: Sign) -> Heading {
         match (sign, self.line.as_slice()) {
@@ -144,7 +144,7 @@ pub struct WorldBuilder {
     corridors: Vec<MazeCorridor>,
 }
 
-/// Reason why a drawing is not a world.
+/// Reason why a drawing is not a valid world.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlaneMazeError {
@@ -282,7 +282,7 @@ impl WorldBuilder {
 }
 
 impl PlaneMaze {
-    /// Returns the common patterns its corridors are made of.
+    /// Returns the common patterns of its corridors.
     #[must_use]
     pub const fn dictionary(&self) -> &Dictionary {
         &self.dictionary
@@ -325,8 +325,8 @@ impl PlaneMaze {
         place.ports.get(port.number as usize).copied()
     }
 
-    /// Returns the port at which a robot arrives that leaves by `port`, or `None` if there is no
-    /// such port.
+    /// Returns the port at which a robot arrives if it leaves by `port`. `None` if there is no such
+    /// port.
     #[must_use]
     pub fn beyond(&self, port: WorldPort) -> Option<WorldPort> {
         let end = self.end_at(port)?;

@@ -1,6 +1,6 @@
 //! CPM's e-puck as the robot of a diktiometry. Its layers 0 and 1 drive from one junction or dead
 //! end to the next, which are the places. Encoders, with headings corrected by the walls, are its
-//! odometry. A sweep is the look of a place.
+//! odometry. A sweep is its view of a place.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 
@@ -32,11 +32,11 @@ pub struct EpuckSurveyConfig {
     /// Exploration probability: how often an applicable script of the map's advice is begun, 0 to
     /// 1; "generally 30 % of the time".
     pub heed: f64,
-    /// Error bound of odometry at the end of a move along either axis, m: where in a place the
-    /// robot stops.
+    /// Error bound of odometry at the end of a move along either axis, m: how far from a place's
+    /// middle the robot may stop.
     pub margin: f64,
-    /// Additional bound after one metre, m. It grows as the root of the way, as the slips of ticks
-    /// are independent.
+    /// Additional bound after one metre, m. It grows as the square root of the distance, as the
+    /// slips of ticks are independent.
     pub margin_per_root_metre: f64,
 }
 
@@ -75,8 +75,8 @@ impl EpuckSurveyConfig {
 /// Number of columns of a place's look.
 const COLUMNS: usize = 20;
 
-/// Raw value above which a sensor sees a wall, in any corridor: only a wall and no wall are told
-/// apart.
+/// Raw value above which a sensor sees a wall, in any corridor. Only walls and their absence are
+/// told apart.
 const WALL: f64 = 60.0;
 
 /// Result of a survey.
@@ -123,7 +123,7 @@ pub enum EpuckRoverError {
     /// The robot.
     #[error(transparent)]
     Walk(#[from] WalkError<StepError>),
-    /// A sweep is not a signature.
+    /// A sweep gives no valid signature.
     #[error(transparent)]
     Signature(#[from] SignatureError),
     /// Odometry is not a number.
@@ -182,13 +182,13 @@ pub fn survey_maze(
     })
 }
 
-/// The robot, with its compass: headings are those of the start, trued up by the walls.
+/// The robot with its compass. Headings are relative to the start and corrected by the walls.
 struct EpuckRover {
     walker: Walker<SimulatedEpuck>,
     config: EpuckSurveyConfig,
     /// Heading at the start.
     ahead: Heading,
-    /// The branch that leads each way, by [`Direction::index`].
+    /// Branch that leads in each direction, by [`Direction::index`].
     ways: [Option<usize>; 4],
 }
 
@@ -223,7 +223,7 @@ impl EpuckRover {
         self.walker.body().truth().pose
     }
 
-    /// Returns the number of the cell it truly stands in.
+    /// Returns the number of the cell in which the robot truly stands.
     fn site(&self, maze: &Maze) -> u32 {
         let cell = self.world().cell_at(self.truth().position);
         cell.map_or(0, |cell| maze.grid().index(cell) as u32)
@@ -243,7 +243,7 @@ impl EpuckRover {
         }
     }
 
-    /// Returns the arrival at the place it came to.
+    /// Returns the arrival at the robot's present place.
     fn arrival(
         &mut self,
         outcome: MoveOutcome,

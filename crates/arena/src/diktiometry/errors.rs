@@ -1,10 +1,9 @@
-//! The paper's measure: the a-posteriori position error.
+//! Measures errors as the paper does: by the a-posteriori position error.
 
 use tolman_geom::{Point, PointBox, Vector};
 use tolman_maps::diktiometry::StepReport;
 
-/// The squared distances of one move between how the robot truly moved and how it was expected to,
-/// m².
+/// Squared distances of one move between the robot's true motion and the expected motion, m².
 ///
 /// "We measure this by calculating the sum-of-squared-distance (SSD) between the robot's actual
 /// relative motion and predicted relative motion for each track after a move."
@@ -20,8 +19,8 @@ pub struct MoveError {
 }
 
 impl MoveError {
-    /// Returns the errors of a move that the observer reported, whose odometry was `moved` and
-    /// that truly was `truth`.
+    /// Returns the errors of a move that the observer reported. `moved` is its odometry and `truth`
+    /// its true displacement.
     #[must_use]
     pub fn of(report: &StepReport, moved: PointBox, truth: Vector) -> Self {
         let square = |middle: Point| (middle.coords - truth).norm_squared();
@@ -66,14 +65,14 @@ pub struct ErrorSummary {
 
 /// Number of moves in a window.
 pub const WINDOW: usize = 25;
-/// Last share of a run in which the moves are at their asymptote.
+/// Last part of a run that counts as asymptotic, as a share of its moves.
 pub const TAIL: f64 = 0.25;
 /// Margin above the asymptote that counts as near, as a share of the odometry's error.
 pub const NEAR: f64 = 0.2;
 
 impl ErrorSummary {
-    /// Sums the errors of a run up, window by window; moves beyond the last full window belong to
-    /// none. None if no move was made.
+    /// Sums up the errors of a run, window by window. Moves beyond the last full window belong to
+    /// none. `None` if no move was made.
     #[must_use]
     pub fn of(errors: &[MoveError]) -> Option<Self> {
         let mean = |part: &[MoveError], value: fn(&MoveError) -> f64| {

@@ -1,4 +1,4 @@
-//! Memory of how each way last was, without confusing two places: the baseline of a map whose world
+//! Remembers how each way last was, without confusing two places: the baseline of a map whose world
 //! changes.
 
 use alloc::collections::{BTreeMap, BTreeSet};
@@ -29,7 +29,7 @@ pub(super) struct Memory {
 }
 
 impl Memory {
-    /// Takes in which ways lead on from a site.
+    /// Takes in which ways lead on from a site: `exits`, by direction.
     pub(super) fn see(&mut self, site: u32, exits: &[bool; 4]) {
         self.missed.remove(&site);
         for direction in Direction::ALL {
@@ -54,27 +54,27 @@ impl Memory {
         }
     }
 
-    /// Returns where a way leads if it is there, for all it knows.
+    /// Returns the site at the end of a way, or `None` if it was never driven or is missing by now.
     fn end(&self, way: (u32, Direction)) -> Option<u32> {
         let to = self.led.get(&way)?.site;
         let is_there = !self.shut.contains(&way) && !self.missed.contains(&to);
         is_there.then_some(to)
     }
 
-    /// Returns the ways that it takes to be there.
+    /// Returns the ways that are there as far as the robot remembers.
     fn ways(&self) -> impl Iterator<Item = ((u32, Direction), u32)> {
         let all = self.led.keys();
         let met = all.filter(|(site, _)| !self.missed.contains(site));
         met.filter_map(|way| Some((*way, self.end(*way)?)))
     }
 
-    /// Returns the share of the ways it takes to be there that lead where it says.
+    /// Returns the share of the remembered ways that lead where the memory says.
     pub(super) fn precision(&self, truth: &Places) -> f64 {
         let is_right = |(way, to): &((u32, Direction), u32)| leads(truth, *way) == Some(*to);
         share(self.ways().filter(is_right).count(), self.ways().count())
     }
 
-    /// Returns the fewest moves from one site to another, if it knows a way.
+    /// Returns the fewest moves from one site to another, or `None` if the memory knows no way.
     pub(super) fn plan(&self, from: u32, to: u32) -> Option<Vec<Direction>> {
         let path = path_to(self, from, |site| site == to)?;
         let hops = path.windows(2);

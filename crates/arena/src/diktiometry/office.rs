@@ -1,4 +1,4 @@
-//! A world of corridors in which corners and doorways are the places: the paper's simulated
+//! Makes worlds of corridors in which corners and doorways are the places: the paper's simulated
 //! environments.
 
 use alloc::collections::BTreeMap;
@@ -29,7 +29,7 @@ const MOST_COLOURS: u32 = 1 << 16;
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct OfficeConfig {
-    /// Width of a corridor from wall to wall, m. Adjacent openings are only distinguished if the
+    /// Width of a corridor from wall to wall, m. Adjacent openings are distinguished only if the
     /// walls between them are thick.
     pub corridor_width: f64,
     /// Thickness of walls between two parallel corridors, m; 0 for walls that are lines.
@@ -82,7 +82,7 @@ pub struct Office {
     doorways: Vec<(Cell, Direction)>,
     /// Their numbers.
     numbers: BTreeMap<(Cell, Direction), usize>,
-    /// The cells that belong to it, in the order of the grid.
+    /// Cells that belong to the office, in the order of the grid.
     cells: Vec<Cell>,
     config: OfficeConfig,
 }
@@ -91,13 +91,13 @@ pub struct Office {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum OfficeError {
-    /// The share of doorways is invalid.
+    /// The share of doorways is outside 0 to 1.
     #[error("`doorway_share` is {share}; give a number from 0 to 1")]
     DoorwayShare {
         /// The offending share.
         share: f64,
     },
-    /// There are no colours, or more than can be told apart.
+    /// The number of colours is 0 or more than can be told apart.
     #[error("`colours` is {colours}; give 1 to {MOST_COLOURS}")]
     Colours {
         /// The offending number.
@@ -109,7 +109,7 @@ pub enum OfficeError {
 }
 
 impl Office {
-    /// Returns the office with this name of its maze.
+    /// Returns the office with this name for its maze.
     #[must_use]
     pub fn named(mut self, name: &str) -> Self {
         name.clone_into(&mut self.course.name);
@@ -306,7 +306,7 @@ impl Office {
         u32::from(grid.width()) * u32::from(grid.height()) + number as u32
     }
 
-    /// Returns a passage as doorways are named.
+    /// Returns the passage between two cells as doorways are named: from its south or west cell.
     fn passage(&self, cell: Cell, direction: Direction) -> Option<(Cell, Direction)> {
         match direction {
             Direction::North | Direction::East => Some((cell, direction)),
@@ -339,21 +339,21 @@ pub fn blocks(side: u16, walls: f64, rng: &mut impl Rng) -> Maze {
     maze
 }
 
-/// The places that are truly there, by site.
+/// True places now, by site.
 pub(super) type Places = BTreeMap<u32, TruePlace>;
 
-/// A place that is truly there.
+/// A place that exists now.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TruePlace {
-    /// Its number, the same whatever doorways are shut.
+    /// Number of the place, the same whatever doorways are shut.
     pub site: u32,
     /// Position, m.
     pub position: Point,
-    /// The site that the way north, east, south and west leads to, or `None` where a wall is.
+    /// Site to which the way north, east, south and west leads, or `None` where a wall is.
     pub ways: [Option<u32>; 4],
 }
 
-/// Returns where the way from a site in a direction truly leads.
+/// Returns the site to which a way truly leads, or `None` where a wall is.
 pub(super) fn leads(truth: &Places, (site, direction): (u32, Direction)) -> Option<u32> {
     truth.get(&site)?.ways[direction.index()]
 }
@@ -367,7 +367,7 @@ pub(super) fn least_distance(places: &Places) -> Option<f64> {
     distances.reduce(f64::min)
 }
 
-/// An office while some doorways are shut.
+/// An office with some doorways shut.
 struct Chart<'a> {
     office: &'a Office,
     shut: &'a [usize],
@@ -391,14 +391,14 @@ impl Chart<'_> {
         doorway.is_some_and(|number| self.shut.contains(&number))
     }
 
-    /// Returns whether the corridors do anything but lead straight on through a cell.
+    /// Returns whether a cell is a place: its corridor does not just lead straight on.
     fn is_corner(&self, cell: Cell) -> bool {
         let ways = Direction::ALL.map(|direction| self.is_open(cell, direction));
         let straight = [[true, false, true, false], [false, true, false, true]];
         !straight.contains(&ways) && ways.contains(&true)
     }
 
-    /// Returns the site of the next place from a cell in one direction.
+    /// Returns the site of the next place after a cell in one direction.
     fn onward(&self, mut cell: Cell, direction: Direction) -> Option<u32> {
         while self.is_open(cell, direction) {
             if let Some(number) = self.doorway(cell, direction) {
@@ -412,7 +412,7 @@ impl Chart<'_> {
         None
     }
 
-    /// Returns the site of the next place from a doorway in one direction.
+    /// Returns the site of the next place after a doorway in one direction.
     fn behind(&self, number: usize, direction: Direction) -> Option<u32> {
         let (cell, along) = self.office.doorways[number];
         let beyond = match direction {
@@ -459,7 +459,7 @@ impl OfficeConfig {
         outline.map(|(x, y)| corner(x, y)).collect()
     }
 
-    /// Returns what narrows a passage to a doorway: on both sides the outline of a post.
+    /// Returns the outlines of the two posts, left and right, that narrow a passage to a doorway.
     fn jambs(&self, cell: Cell, direction: Direction) -> [Vec<Point>; 2] {
         let width = self.corridor_width;
         let (centre, ahead) = (self.between(cell, direction), unit_of(direction));
@@ -475,7 +475,7 @@ impl OfficeConfig {
         })
     }
 
-    /// Returns the two leaves of a doorway's door, one at each face of the wall. Shut, it looks
+    /// Returns the two leaves of a doorway's door, one at each face of the wall. A shut door looks
     /// like a wall from both sides.
     fn leaves(&self, number: usize, cell: Cell, direction: Direction) -> [Door; 2] {
         let across = unit_of(direction.left()) * (0.5 * self.corridor_width);

@@ -25,7 +25,7 @@ pub(super) fn set_doorway(
     leaves.try_for_each(|leaf| robot.set_door(&format!("{number} {leaf}"), state))
 }
 
-/// Returns a robot at `pose` in `office`. `seed` is that of all noise.
+/// Returns a robot at `pose` in `office`. `seed` seeds all noise.
 ///
 /// # Errors
 /// [`RunError`] if the configuration is out of its bounds or the robot cannot stand there.
@@ -39,8 +39,7 @@ pub fn office_robot(
     Ok(office.course.robot_at(pose, robot, seed)?)
 }
 
-/// Returns a robot with its routines at `at`, m, in `office`, facing north. `seed` is that of all
-/// noise.
+/// Returns a robot with its routines at `at`, m, in `office`, facing north. `seed` seeds all noise.
 ///
 /// # Errors
 /// [`RunError`] if the configuration is out of its bounds or the robot cannot stand there.
@@ -81,7 +80,7 @@ mod tests {
         Office::new(&maze, &config).unwrap()
     }
 
-    /// Walks at random, and at every arrival hands over the places left and reached, the arrival
+    /// Walks at random. At every arrival, calls back with the places left and reached, the arrival
     /// and the robot.
     fn walk(
         office: &Office,
@@ -157,7 +156,7 @@ mod tests {
         );
     }
 
-    /// Checks that the abstract world, in which mappers are tried by the million, has the
+    /// Checks that the abstract world, in which mappers are tested a million times, has the
     /// statistics of the robot.
     #[test]
     fn the_abstract_world_offers_the_same_statistics() {

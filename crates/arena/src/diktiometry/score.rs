@@ -1,4 +1,4 @@
-//! A learned map compared with the truth.
+//! Compares a learned map with the truth.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use core::cmp::Reverse;
@@ -11,13 +11,13 @@ use super::{Places, leads};
 /// True position of the robot while the map had it at a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Visit {
-    /// The site of the true place.
+    /// Site of the true place.
     pub site: u32,
-    /// The place on the map, by the name it had then.
+    /// Place on the map, by its id at that time.
     pub place: PlaceId,
 }
 
-/// Quality of a map. Every share is from 0 to 1, and 1 if there is nothing to share in.
+/// Quality of a map. Every share is from 0 to 1, and 1 of an empty whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapScore {
     /// Number of places on the map.
@@ -32,14 +32,14 @@ pub struct MapScore {
     pub share_once: f64,
     /// Share of the links on the map that lead where their action truly leads.
     pub link_precision: f64,
-    /// Share of the links that the map believes to be there now and that lead where their action
-    /// truly leads. Of each action, that is the likeliest link, if it is likelier than not.
+    /// Share of the believed links that lead where their action truly leads. The believed link of
+    /// an action is its likeliest one, if its probability exceeds ½.
     pub believed_precision: f64,
     /// Share of the true ways of the whole world that are on the map.
     pub link_recall: f64,
     /// Share of the ways driven at least once that are on the map.
     pub gone_recall: f64,
-    /// Whether the map is one to one the graph of the true places visited and the ways gone.
+    /// Whether the map is isomorphic to the graph of visited places and driven ways.
     pub is_isomorphic: bool,
 }
 
@@ -47,7 +47,7 @@ pub struct MapScore {
 type Way = (u32, Direction);
 
 /// Scores a map. `visits` are all places the robot was at, from the first on; `gone` are the ways
-/// it took; `truth` is what is there now. Action n of the map is direction n of [`Direction::ALL`].
+/// it took; `truth` are the places now. Action n of the map is direction n of [`Direction::ALL`].
 /// O(visits · log places + links · log links).
 #[must_use]
 pub fn score(

@@ -1,4 +1,4 @@
-//! One run: a robot walks an office, its observer maps it, and the truth is kept beside.
+//! Runs one survey: a robot walks an office, its observer maps it, and the truth is kept beside.
 
 use alloc::sync::Arc;
 
@@ -23,13 +23,13 @@ use super::{
 };
 use tolman_systems::stream;
 
-/// Everything a run depends on but the office and the seed.
+/// All settings of a run except the office and the seed.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct SurveyConfig {
     /// The robot and its noise.
     pub robot: SurveyorConfig,
-    /// The mapper.
+    /// Configuration of the mapper.
     pub mapper: Config,
     /// Exploration probability: how often an applicable script is begun, 0 to 1. Paper: "generally
     /// 30% of the time".
@@ -41,13 +41,13 @@ pub struct SurveyConfig {
 }
 
 impl SurveyConfig {
-    /// Returns a run of the paper in an office: random walk, no advice, no door that moves.
+    /// Returns a run of the paper in an office: random walk, no advice, no doorway that changes.
     #[must_use]
     pub fn paper(office: &Office, moves: u32) -> Self {
         Self::of(office, SurveyorConfig::paper(), moves)
     }
 
-    /// Returns the same run with another robot.
+    /// Returns these settings with another robot.
     #[must_use]
     pub fn of(office: &Office, robot: SurveyorConfig, moves: u32) -> Self {
         Self {
@@ -60,7 +60,7 @@ impl SurveyConfig {
     }
 }
 
-/// Returns the mapper for a robot in an office: what its designers know of both.
+/// Returns the mapper for a robot in an office, with all that the designers know of both.
 #[must_use]
 pub fn mapper(office: &Office, robot: &SurveyorConfig) -> Config {
     let separation = office.separation();
@@ -94,9 +94,9 @@ pub struct Past {
     pub start: Point,
     /// True position of the robot, m.
     pub at: Point,
-    /// The true places it was at and what the map took them for, from the start on.
+    /// True places where the robot was, each with the map's place at the time, from the start on.
     pub visits: Vec<Visit>,
-    /// The true ways it went: from which site in which direction.
+    /// True ways that the robot went: each by its site and direction.
     pub gone: Vec<(u32, Direction)>,
 }
 
@@ -123,7 +123,7 @@ pub struct Survey {
 /// A place of a learned map where it is drawn over the world.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlaceMark {
-    /// Its id.
+    /// Id of the place on the map.
     pub id: u32,
     /// The box that holds it as seen from the start, m.
     pub bounds: Bounds,
@@ -139,9 +139,10 @@ pub enum PlanTrial {
     Gone,
     /// The place is there.
     There {
-        /// Whether the plan would lead to it.
+        /// Whether the plan would lead to the place.
         works: bool,
-        /// Whether a plan by the ways as the robot last saw them, places never confused, would.
+        /// Whether a plan by perfect memory of the ways would lead there: each way as the robot
+        /// last saw it, no places confused.
         remembered_works: bool,
     },
 }
@@ -202,7 +203,7 @@ impl Survey {
     /// Returns a robot at a random place of an office, with a map of that place alone.
     ///
     /// # Errors
-    /// [`RunError`] if robot or observer cannot be had.
+    /// [`RunError`] if robot or observer cannot be made.
     pub fn new(office: &Arc<Office>, config: SurveyConfig, seed: u64) -> Result<Self, RunError> {
         let truth = office.places(&[]);
         let first = stream(seed, 0).random_range(0..truth.len().max(1) as u32) as usize;
@@ -224,8 +225,8 @@ impl Survey {
         Self::after(past, office, config, rover, mapping, seed)
     }
 
-    /// Returns a run that goes on where another ended. `seed` seeds all random numbers from now on;
-    /// doorways are open.
+    /// Returns a run that continues where another ended. `seed` seeds all random numbers from now
+    /// on; doorways are open.
     ///
     /// # Errors
     /// [`RunError`] if the robot cannot stand where the other ended, or no place is there.
@@ -241,7 +242,7 @@ impl Survey {
         Self::after(past, office, config, rover, mapping, seed)
     }
 
-    /// Returns the run of a robot that has this past.
+    /// Returns the run that continues from the truth `past`.
     fn after(
         past: Past,
         office: &Arc<Office>,
@@ -320,7 +321,7 @@ impl Survey {
         })
     }
 
-    /// Shuts or opens a doorway when it is time to, but none that the robot is near.
+    /// Shuts or opens a doorway if one is due, but none near the robot.
     fn move_a_door(&mut self) -> Result<(), RunError> {
         let (moves, period) = (self.past.gone.len(), self.config.door_period as usize);
         let doorways = self.office.doorways();
@@ -347,7 +348,7 @@ impl Survey {
         self.robot().truth().pose.position
     }
 
-    /// Returns the true place the robot is at.
+    /// Returns the site of the robot's true place.
     fn true_site(&self, here: Point) -> Result<u32, RunError> {
         let places = self.truth.values();
         let distances = places.map(|place| ((place.position - here).norm(), place.site));
@@ -363,7 +364,7 @@ impl Survey {
         &self.office
     }
 
-    /// Returns all that the survey depends on except the office and the seed.
+    /// Returns the settings of the survey.
     #[must_use]
     pub const fn config(&self) -> &SurveyConfig {
         &self.config
@@ -396,7 +397,7 @@ impl Survey {
         &self.shut
     }
 
-    /// Returns the true places of the robot and those of the map, from the start on.
+    /// Returns the true places of the robot with those of the map, from the start on.
     #[must_use]
     pub fn visits(&self) -> &[Visit] {
         &self.past.visits
@@ -443,8 +444,9 @@ impl Survey {
     }
 
     /// Returns the share of remembered ways that still lead where they did when the robot last saw
-    /// them. It is the baseline for a map of this run, which does not guess changes since then. A
-    /// resumed run only remembers what it saw since: earlier ways are not part of its [`Past`].
+    /// them. It is the baseline for a map of this run: a memory that guesses no changes. A resumed
+    /// run remembers only what it saw since it was resumed, because [`Past`] does not hold earlier
+    /// ways.
     #[must_use]
     pub fn remembered_precision(&self) -> f64 {
         self.memory.precision(&self.truth)

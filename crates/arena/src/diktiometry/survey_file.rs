@@ -19,13 +19,13 @@ const FILES: MapFiles = MapFiles {
 /// place in it, so that the survey can continue; the map is the journal of all moves.
 #[derive(Clone, Debug)]
 pub struct SurveyFile {
-    /// World, robot and seed of its origin. A continuation has seeds of its own.
+    /// World, robot and seed of the survey's beginning. A continuation has other seeds.
     pub origin: Origin,
     /// The world.
     pub office: Arc<Office>,
-    /// The robot and how it walks. Its mapper is that of the map.
+    /// Settings of the robot and its walk. Its mapper is that of the map.
     pub config: SurveyConfig,
-    /// The truth, for continuing and for scoring.
+    /// Truth of the run so far, for continuing and for scoring.
     pub past: Past,
     /// The map.
     pub observer: Observer,
@@ -35,8 +35,8 @@ pub struct SurveyFile {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SurveyFileError {
-    /// The header or the JSON is invalid, or names another system; or the survey cannot be written
-    /// as JSON.
+    /// The header or the JSON is invalid, names another system, or the survey cannot be written as
+    /// JSON.
     #[error(transparent)]
     File(#[from] FileError),
     /// The exploration probability is outside 0 to 1.
@@ -69,7 +69,7 @@ struct Body {
     /// True site of every visit, and the place on the map where the robot believed it was, from the
     /// start on.
     visits: Vec<(u32, PlaceId)>,
-    /// The true ways gone: from which site in which direction.
+    /// True ways that the robot went: each by its site and direction.
     gone: Vec<(u32, Direction)>,
     map: MapFile,
 }
@@ -118,7 +118,7 @@ impl SurveyFile {
     /// Reads the text of a file.
     ///
     /// # Errors
-    /// [`SurveyFileError`] with the place and what to do about it.
+    /// [`SurveyFileError`] with the place and the repair.
     pub fn from_json(text: &str) -> Result<Self, SurveyFileError> {
         let (origin, body): (_, Body) = FILES.read(text)?;
         if !(0.0..=1.0).contains(&body.heed) {
@@ -162,10 +162,10 @@ impl SurveyFile {
         self.observer.map().paths.resolve(visit.place)
     }
 
-    /// Returns the survey, to go on with. `seed` seeds all random numbers from now on.
+    /// Returns the survey, ready to continue. `seed` seeds all random numbers from now on.
     ///
     /// # Errors
-    /// [`RunError`] if the robot cannot stand where the file has it.
+    /// [`RunError`] if the robot cannot stand at the file's position.
     pub fn survey(&self, seed: u64) -> Result<Survey, RunError> {
         let past = self.past.clone();
         let observer = self.observer.clone();

@@ -6,13 +6,13 @@ use tolman_systems::diktiometry::{CameraEye, Eye, LaserEye, NoEye, RoutineConfig
 
 use crate::pioneer::{CAMERA_PIONEER, LASER_PIONEER, calibrated};
 
-/// A simulated Pioneer and the bounds of its errors. [`SurveyorConfig::paper`] has our values for
-/// those that the paper does not name.
+/// A simulated Pioneer and the bounds of its errors. [`SurveyorConfig::paper`] fills in our values
+/// where the paper gives none.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct SurveyorConfig {
-    /// Body, laser and motors. Errors of compass and odometry are added to its own.
+    /// Body, laser and motors. The errors of compass and odometry below are added to its own.
     pub pioneer: LaserPioneerConfig,
     /// Cue by which it tells places apart.
     pub sight: PlaceCue,
@@ -20,11 +20,11 @@ pub struct SurveyorConfig {
     /// travelled".
     pub odometry_share: f64,
     /// Largest additional error of scale that all odometry of a run shares, as a share of the
-    /// distance, 0 to 0.5. It is a wrong calibration of which the mapper knows the bound.
+    /// distance, 0 to 0.5. It models a wrong calibration; the mapper knows its bound.
     #[serde(default, skip_serializing_if = "is_none")]
     pub shared_share: f64,
     /// Probability that odometry is wrong by four times its bound, 0 to 1, drawn as often as other
-    /// errors. The mapper does not know of it.
+    /// errors. The mapper does not know about outliers.
     #[serde(default, skip_serializing_if = "is_none")]
     pub outliers: f64,
     /// Largest error of the compass, rad.
@@ -37,7 +37,7 @@ pub struct SurveyorConfig {
     pub place_radius: f64,
 }
 
-/// Error of an outlier of odometry, in bounds.
+/// Error of an outlier of odometry, as a multiple of the bound.
 const OUTLYING: f64 = 4.0;
 
 /// Returns whether an error is 0; files then leave it out.
@@ -54,7 +54,7 @@ pub enum PlaceCue {
     Camera {
         /// Number of columns of the image.
         columns: u32,
-        /// Standard deviation of each of its measurements, as a share of full light.
+        /// Standard deviation of each colour measurement, as a share of full light.
         colour_sd: f64,
     },
     /// The ways that lead on; walls look the same.
@@ -67,8 +67,8 @@ pub enum PlaceCue {
 }
 
 impl SurveyorConfig {
-    /// Returns odometry of 10 % and a compass of ± 4°, as the figures have them. An error lasts
-    /// about as long as a move.
+    /// Returns odometry with errors of 10 % and a compass of ± 4°, as in the paper's figures. An
+    /// error lasts about as long as a move.
     #[must_use]
     pub fn paper() -> Self {
         let mut pioneer = LaserPioneerConfig::noiseless();
@@ -104,7 +104,7 @@ impl SurveyorConfig {
         }
     }
 
-    /// Returns the robot's name, by what it tells places apart by.
+    /// Returns the robot's name, which follows from its cue for places.
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self.sight {

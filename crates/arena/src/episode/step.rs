@@ -9,26 +9,26 @@ use crate::run::Limited;
 /// One time step of a run, as it has just been made.
 #[derive(Clone, Copy, Debug)]
 pub struct Step<'a> {
-    /// The action it belongs to.
+    /// Action under way in this time step.
     pub action: Direction,
-    /// The brain that chose it.
+    /// Brain that chose the action.
     pub brain: Chooser<'a>,
     /// Command of the motors.
     pub command: TurnTranslate,
     /// Outcome of the action if it ended with this step; `None` while it goes on.
     pub ends: Option<Outcome>,
-    /// The robot as it is now.
+    /// Robot after the time step.
     pub robot: &'a CoursePioneer,
 }
 
-/// The brain that chose an action.
+/// Brain that chose an action.
 #[derive(Clone, Copy, Debug)]
 pub enum Chooser<'a> {
-    /// A brain that perceives.
+    /// A brain that perceives scans and headings.
     Brain(&'a AnyBrain),
-    /// One that perceives what its wheels rolled, too.
+    /// A brain that also perceives its wheels' odometry.
     Rolling(&'a AnyRollingBrain),
-    /// An oracle, which believes nothing.
+    /// An oracle, which has no belief.
     Oracle,
 }
 
@@ -43,8 +43,8 @@ impl<'a> Step<'a> {
         }
     }
 
-    /// Returns in a few words what the brain made of its situation when it chose the action; empty
-    /// if there is nothing to say.
+    /// Returns the brain's view of its situation when it chose the action, in a few words. Empty if
+    /// there is nothing to say.
     #[must_use]
     pub fn words(&self) -> String {
         match self.brain {
@@ -55,7 +55,7 @@ impl<'a> Step<'a> {
     }
 
     /// Returns the positions at which the brain believed the robot to be when it chose the action.
-    /// The likeliest is first; empty if the brain does not ask.
+    /// The likeliest is first; empty if the brain does not localize.
     #[must_use]
     pub fn belief(&self) -> Vec<Guess> {
         match self.brain {

@@ -1,4 +1,4 @@
-//! A foreign program that drives a robot: JSON lines to and fro.
+//! Lets a foreign program drive a robot, by lines of JSON.
 
 // Input holds any bytes: a reader indexes nothing.
 #![cfg_attr(not(test), warn(clippy::indexing_slicing))]
@@ -15,10 +15,10 @@ use tolman_robot::{Mapper, SensesLandmarks, Standing, System, Task};
 use super::{Budget, ForeignProgram, Launch, LaunchError, Left, Overrun};
 use crate::BoxError;
 
-/// The version of the protocol that [`ForeignBrain`] speaks.
+/// Version of the protocol that [`ForeignBrain`] speaks.
 const PROTOCOL: u32 = 1;
 
-/// Time in which a program that has closed its stdout is to end.
+/// Time within which a program that has closed its stdout must end.
 const GRACE: Duration = Duration::from_secs(5);
 
 /// Maximum length of a line quoted in an error, characters.
@@ -50,13 +50,13 @@ pub struct Hello {
 /// A program that ends, or uses up its [`Budget`], has given up.
 #[derive(Debug)]
 pub struct ForeignBrain {
-    /// `None` once it has ended.
+    /// The running program; `None` once it has ended.
     program: Option<ForeignProgram>,
     hello: Hello,
     steps: u32,
 }
 
-/// Why a foreign brain cannot go on.
+/// Reason why a foreign brain cannot go on.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum BrainError {
@@ -76,7 +76,7 @@ pub enum BrainError {
         /// Why.
         source: serde_json::Error,
     },
-    /// What the robot sensed has no JSON form.
+    /// The robot's readings have no JSON form.
     #[error("what the robot sensed at step {step} cannot be written")]
     Sensing {
         /// The number of the time step.
@@ -102,7 +102,7 @@ enum Answer<C> {
     Command(C),
 }
 
-/// The first line that a brain is told.
+/// First line to a brain.
 #[derive(Serialize)]
 struct Greeting<'a> {
     #[serde(flatten)]
@@ -119,7 +119,7 @@ enum End {
 }
 
 impl ForeignBrain {
-    /// Starts a program that is to drive the robot of `hello`.
+    /// Starts a program to drive the robot of `hello`.
     ///
     /// # Errors
     /// As [`ForeignProgram::start`].
@@ -131,7 +131,7 @@ impl ForeignBrain {
         })
     }
 
-    /// Tells it what is sensed, and returns its answer; `None` if it has closed its stdout.
+    /// Tells it the readings, and returns its answer; `None` if it has closed its stdout.
     fn ask(&mut self, step: &Value) -> Result<Option<String>, Overrun> {
         let Some(program) = &mut self.program else {
             return Ok(None);
@@ -147,7 +147,8 @@ impl ForeignBrain {
         program.hear()
     }
 
-    /// Returns what became of a program that says no more.
+    /// Returns the standing of a brain whose program says no more, after waiting for the program's
+    /// end.
     fn left(&mut self) -> Result<Standing, LaunchError> {
         let Some(program) = self.program.take() else {
             return Ok(Standing::gave_up("the brain has ended"));

@@ -1,4 +1,5 @@
-//! The process between us and a foreign program, which leaves nothing of it behind.
+//! Runs the process between us and a foreign program, which kills everything that the program
+//! leaves behind.
 
 use core::time::Duration;
 use std::io;
@@ -11,11 +12,12 @@ use rustix::event::{PollFd, PollFlags, poll};
 use rustix::process::{self, Pid, PidfdFlags, Signal, WaitOptions, pidfd_open};
 use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
 
-/// Time that processes are given to die of `SIGKILL` before the keeper gives them up.
+/// Time that processes have to die of `SIGKILL` before the keeper stops waiting for them.
 const PATIENCE: Duration = Duration::from_secs(5);
 
 /// Runs `words[0]` with the other words as arguments. It runs until it ends, the process `parent`
-/// ends, or a signal asks for the end (TERM, INT, HUP). Then kills all that is left of it.
+/// ends, or a signal asks for the end (TERM, INT, HUP). Then kills all processes that are left of
+/// it.
 ///
 /// Returns the exit code by the shells' convention:
 ///
@@ -28,7 +30,7 @@ const PATIENCE: Duration = Duration::from_secs(5);
 /// the program's orphans.
 ///
 /// # Errors
-/// If the system refuses it a session, a signal or a descriptor. Nothing was started then.
+/// If the system refuses a session, a signal or a descriptor. Nothing was started then.
 pub fn keep(parent: u32, words: &[String]) -> io::Result<u8> {
     // A session of its own: no Ctrl-C reaches it, and no group of it is anybody else's.
     process::setsid()?;
@@ -74,7 +76,8 @@ fn signals() -> io::Result<UnixStream> {
     Ok(asked)
 }
 
-/// Lets go of the program's pipes, so that who closes them has closed them.
+/// Closes the keeper's copies of the program's pipes. Otherwise a pipe that the program closes
+/// would stay open.
 fn release_pipes() -> io::Result<()> {
     let nothing = fs::OpenOptions::new()
         .read(true)
@@ -85,7 +88,7 @@ fn release_pipes() -> io::Result<()> {
     Ok(())
 }
 
-/// Waits until the child ends, and returns how; `None` if one of the others is ready first.
+/// Waits until the child ends, and returns its exit; `None` if one of the others is ready first.
 fn wait(child: &mut Child, others: &[&std::os::fd::OwnedFd]) -> io::Result<Option<ExitStatus>> {
     let Some(id) = pid(child.id()) else {
         return Ok(None);
@@ -115,8 +118,8 @@ fn wait(child: &mut Child, others: &[&std::os::fd::OwnedFd]) -> io::Result<Optio
     }
 }
 
-/// Kills children until none is left. The children of one that dies become ours, so that in the end
-/// all descendants have had their turn.
+/// Kills children until none is left. The children of a dead one become ours, so that all
+/// descendants are killed in the end.
 fn end_descendants() {
     let pause = Duration::from_millis(1);
     for _ in 0..PATIENCE.as_millis() {

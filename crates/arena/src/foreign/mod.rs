@@ -1,4 +1,4 @@
-//! Foreign programs, run under supervision: a mouse, a brain in another language.
+//! Runs foreign programs under supervision, such as a mouse or a brain in another language.
 //!
 //! A [`ForeignBrain`] drives a robot, in JSON lines. A [`ForeignProgram`] exchanges lines, within
 //! a [`Budget`] of time, bytes and lines. When it is dropped, the program and all processes that it
@@ -6,8 +6,8 @@
 //!
 //! On Linux that holds even if this process is killed. A process of its own, the keeper, stands
 //! between it and the program. The keeper notices its end, and inherits what the program leaves
-//! behind. It is the same executable, which then calls [`keep`]; see [`Launch::keeper`]. On other
-//! systems, and without a keeper, only the program itself is killed.
+//! behind. The keeper is the same executable, which then calls [`keep`]; see [`Launch::keeper`]. On
+//! other systems, and without a keeper, only the program itself is killed.
 //!
 //! ```no_run
 //! use core::sync::atomic::AtomicBool;

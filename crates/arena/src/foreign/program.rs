@@ -1,4 +1,4 @@
-//! A foreign program and the lines that go to and fro.
+//! Starts a foreign program and exchanges lines with it.
 
 use alloc::sync::Arc;
 use core::sync::atomic::{AtomicBool, Ordering};
@@ -17,12 +17,12 @@ use thiserror::Error;
 pub struct Launch<'a> {
     /// The program and its arguments.
     pub words: &'a [String],
-    /// The command that runs [`keep`](super::keep) with our process's id and the words behind it;
-    /// empty for no keeper.
+    /// Command that runs [`keep`](super::keep) with our process's id and `words` behind it; empty
+    /// for no keeper.
     pub keeper: &'a [OsString],
     /// Destination of its stderr.
     pub log: Log,
-    /// A flag that ends the program when it is raised.
+    /// Flag that ends the program once it is raised.
     pub stop: &'a Arc<AtomicBool>,
 }
 
@@ -38,13 +38,13 @@ pub enum Log {
 /// Resources that a foreign program may use before it is ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
-    /// Time from its start.
+    /// Maximum duration since its start.
     pub time: Duration,
     /// Number of bytes that it may write.
     pub bytes: u64,
     /// Number of lines that it may write.
     pub lines: u64,
-    /// Number of bytes of its longest line, with the end of the line.
+    /// Maximum length of a line, bytes, with the end of the line.
     pub line_bytes: u64,
 }
 
@@ -110,10 +110,10 @@ pub enum LaunchError {
     Wait(#[source] io::Error),
 }
 
-/// A foreign program that runs. Dropping it ends it, and all that it started.
+/// A running foreign program. Dropping it ends the program and all processes that it started.
 ///
 /// Reading and writing have threads of their own, since a program that neither writes nor reads
-/// must not hold up the clock. They end as soon as its ends of the pipes are closed, or ours of the
+/// must not hold up the clock. They end as soon as the program closes its pipes, or we close our
 /// channels.
 #[derive(Debug)]
 pub struct ForeignProgram {
@@ -132,11 +132,11 @@ pub struct ForeignProgram {
 /// Number of lines that may wait to be read, in either direction.
 const LINES_AHEAD: usize = 256;
 
-/// Time after which the flag and the clock are looked at again.
+/// Time between two looks at the flag and the clock.
 const PULSE: Duration = Duration::from_millis(50);
 
 #[cfg(target_os = "linux")]
-/// Time in which the keeper is to end the program, before it is killed itself.
+/// Time within which the keeper must end the program, before the keeper itself is killed.
 const KEEPER_TIME: Duration = Duration::from_secs(10);
 
 impl ForeignProgram {
@@ -211,7 +211,7 @@ impl ForeignProgram {
         Ok(Some(line))
     }
 
-    /// Sends the program a line, without the line's end. A program that has closed its stdin needs
+    /// Sends the program a line, without the line's end. A program that has closed its stdin gets
     /// none.
     ///
     /// # Errors
@@ -256,7 +256,7 @@ impl ForeignProgram {
         }
     }
 
-    /// Returns the remaining time.
+    /// Returns the remaining time, or an error if time is up or the flag is raised.
     fn look_at_clock(&self) -> Result<Duration, Overrun> {
         if self.stop.load(Ordering::Relaxed) {
             return Err(Overrun::Stop);
@@ -277,7 +277,7 @@ impl Drop for ForeignProgram {
     }
 }
 
-/// Lets the keeper end the program.
+/// Asks the keeper to end the program.
 #[cfg(target_os = "linux")]
 fn ask_keeper(child: &mut Child) -> io::Result<()> {
     use rustix::process::{Pid, Signal, kill_process};
@@ -313,7 +313,7 @@ fn wait(child: &mut Child, time: Duration) -> io::Result<Option<ExitStatus>> {
     }
 }
 
-/// Reads lines; `None` for one that is too long, and then no more.
+/// Reads lines and sends them on. A line that is too long is sent as `None` and ends the reading.
 fn read(output: ChildStdout, line_bytes: u64, to_us: &SyncSender<Option<String>>) {
     let mut output = BufReader::new(output);
     let mut line = Vec::new();

@@ -32,25 +32,25 @@ impl CellGrid {
         Self { bounds }
     }
 
-    /// Returns the rectangle that they cover.
+    /// Returns the rectangle that the cells cover.
     #[must_use]
     pub const fn bounds(&self) -> Bounds {
         self.bounds
     }
 
-    /// Returns the grid, which numbers them.
+    /// Returns the grid that numbers the cells.
     #[must_use]
     pub fn grid() -> Grid {
         Grid::new(Self::SIDE, Self::SIDE)
     }
 
-    /// Returns the extent of a cell, east and north, m.
+    /// Returns the extent of a cell to the east and to the north, m.
     #[must_use]
     pub fn size(&self) -> Vector {
         (self.bounds.max - self.bounds.min) / f64::from(Self::SIDE)
     }
 
-    /// Returns the cell in which a point lies; of a point beyond them, the nearest.
+    /// Returns the cell of a point, or the nearest cell if the point lies beyond them.
     #[must_use]
     pub fn cell_of(&self, point: Point) -> Cell {
         let (from_corner, size) = (point - self.bounds.min, self.size());

@@ -24,18 +24,18 @@ pub struct DataSet {
 /// A record, with the true pose and cell where it was taken.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LabelledRecord {
-    /// The record, as the robot has it.
+    /// Record as the robot took it.
     pub record: PlaceRecord,
     /// True pose of the robot.
     pub truth: Pose,
     /// True cell of the robot.
     pub cell: Cell,
-    /// The cell that was written down by hand: of a few records a wrong one.
+    /// Cell that the person wrote down; a wrong one for a few records.
     pub label: Cell,
 }
 
-/// The record that best shows each goal, as a person would choose it (section 3.4, *Score*): taken
-/// in front of it, looking at it.
+/// The record that best shows each goal, as a person would choose it (section 3.4, *Score*). It was
+/// taken in front of the goal, looking at it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GoalRecords {
@@ -49,8 +49,8 @@ pub struct GoalRecords {
 const WRONG_LABELS: f64 = 0.01;
 
 impl GoalRecords {
-    /// Returns the record from which each goal is best seen. Without records it is number 0, which
-    /// does not exist.
+    /// Returns the record that shows each goal best. Without records it is number 0, which does not
+    /// exist.
     pub(super) fn find(pitch: &Pitch, records: &[LabelledRecord]) -> Self {
         let best = |goal| {
             let costs = records.iter().map(|record| cost(pitch, record.truth, goal));
@@ -67,15 +67,16 @@ impl GoalRecords {
 /// Returns the cost of seeing a goal from a pose. It is least if the goal is straight ahead, fills
 /// the picture, is not hidden, and is seen head-on.
 fn cost(pitch: &Pitch, pose: Pose, goal: Pose) -> f64 {
-    /// Distance at which a goal fills the picture: where the paper's limits stop the robot, m.
+    /// Distance at which a goal fills the picture, m: the paper's limits stop the robot there.
     const BEST: f64 = 1.3;
-    /// Deviations of equal cost: from that distance, m; to the side, rad; and from head-on, rad.
+    /// Deviations of equal cost: from the best distance, m; to the side, rad; and from head-on,
+    /// rad.
     const OFF: f64 = 0.5;
     const ASIDE: f64 = 0.1;
     const ASLANT: f64 = 0.4;
-    /// Penalty of a goal that something hides: it is seen worse than any that nothing hides.
+    /// Penalty of a hidden goal, which makes it worse than any visible one.
     const HIDDEN: f64 = 1e6;
-    /// The goal itself stands a little before its wall, m.
+    /// Distance of the goal in front of its wall, m.
     const PROUD: f64 = 0.05;
     let way = goal.position - pose.position;
     let (distance, towards) = (way.norm(), Heading::of(way));
@@ -92,7 +93,7 @@ fn cost(pitch: &Pitch, pose: Pose, goal: Pose) -> f64 {
     aside * aside + aslant * aslant + off * off + hidden
 }
 
-/// Writes a wrong cell down for the paper's share of all records.
+/// Replaces the labels of the paper's share of records by wrong cells.
 pub(super) fn mislabel(records: &mut [LabelledRecord], rng: &mut ChaCha8Rng) {
     let count = records.len();
     let mut wrong = (WRONG_LABELS * count as f64).round() as usize;

@@ -1,4 +1,5 @@
-//! Data sets as text: a line of JSON for what holds for all records, then one for each record.
+//! Writes and reads data sets as text: a line of JSON for the facts common to all records, then one
+//! for each record.
 //!
 //! A file begins
 //! `{"format":"tolman-place-records","version":1,"arena":"pitch","seed":1,"records":1006,"cells":…,"goals":…,"sensors":…,
@@ -30,7 +31,7 @@ const VERSION: u32 = 1;
 /// Maximum size of a picture, pixels; none of ours is larger.
 const MOST_PIXELS: usize = 1 << 24;
 
-/// Contents common to all records.
+/// Facts common to all records.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Header {
@@ -41,7 +42,7 @@ struct Header {
     records: usize,
     cells: CellGrid,
     goals: GoalRecords,
-    /// The range sensors: each with the range of the first record.
+    /// The range sensors, each with the range of the first record.
     sensors: Vec<Sounding>,
     picture: Option<PictureShape>,
 }
@@ -55,7 +56,7 @@ struct Tag {
     version: u32,
 }
 
-/// Contents common to all pictures.
+/// Shape common to all pictures.
 #[derive(Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PictureShape {
@@ -83,7 +84,7 @@ pub enum DataTextError {
     /// The text is empty.
     #[error("the file is empty; gather the data again")]
     Empty,
-    /// A line is not JSON, or not what it should hold. The source has the column.
+    /// A line is not JSON, or lacks what it should hold. The source names the column.
     #[error("line {line} cannot be read; copy the file again, or gather the data again")]
     Line {
         /// Number of the line, from 1.
@@ -91,7 +92,7 @@ pub enum DataTextError {
         /// The parser's error, with its position in the line.
         source: serde_json::Error,
     },
-    /// The file is another one.
+    /// The file has another format.
     #[error(
         "line 1: the format is {found:?}, expected {FORMAT:?}; give a file of gathered records"
     )]
@@ -99,13 +100,13 @@ pub enum DataTextError {
         /// The value found.
         found: String,
     },
-    /// The file is of a version this program does not know.
+    /// The file has a version that this program does not know.
     #[error("line 1: the version is {found}, this program reads {VERSION}; update tolman")]
     Version {
         /// The version found.
         found: u32,
     },
-    /// There are not as many records as the header says.
+    /// The number of records differs from the header's.
     #[error("the file has {found} records, its header says {expected}; copy it again")]
     Count {
         /// Number of lines with a record.
@@ -134,10 +135,10 @@ pub enum DataTextError {
 }
 
 impl DataSet {
-    /// Returns the text of a file. All records must be of the same sensors.
+    /// Returns the text of a file. All records must come from the same sensors.
     ///
     /// # Errors
-    /// [`DataTextError::Record`] if they are not.
+    /// [`DataTextError::Record`] if they do not.
     pub fn to_text(&self) -> Result<String, DataTextError> {
         let header = self.header();
         let mut text = json(1, &header)?;
@@ -166,7 +167,7 @@ impl DataSet {
     /// Reads the text of a file.
     ///
     /// # Errors
-    /// [`DataTextError`] with the line and what to do about it.
+    /// [`DataTextError`] with the line and the repair.
     pub fn from_text(text: &str) -> Result<Self, DataTextError> {
         let mut lines = text.lines();
         let header = Header::read(lines.next().ok_or(DataTextError::Empty)?)?;
@@ -205,7 +206,8 @@ impl Header {
         serde_json::from_str(text).map_err(first)
     }
 
-    /// Returns whether there is what it promises.
+    /// Checks that `found` records are as many as the header promises, and that each goal's record
+    /// is among them.
     fn check(&self, found: usize) -> Result<(), DataTextError> {
         let expected = self.records;
         if found != expected {
@@ -221,7 +223,7 @@ impl Header {
         }
     }
 
-    /// Returns what is written of one record.
+    /// Returns the line that is written for one record.
     fn line(&self, line: usize, labelled: &LabelledRecord) -> Result<Line, DataTextError> {
         let wrong = |what| DataTextError::Record { line, what };
         let Snapshot { soundings, picture } = &labelled.record.snapshot;

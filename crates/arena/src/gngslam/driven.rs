@@ -1,4 +1,4 @@
-//! The paper's place map driven by.
+//! Drives by the paper's place map.
 
 use rand::RngExt;
 use thiserror::Error;
@@ -17,7 +17,7 @@ use tolman_systems::stream;
 use super::gather::gather_by;
 use super::{GatherError, Pitch, PitchError, PutError};
 
-/// A drive to where a record was taken.
+/// A drive to the place of a record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlaceDrive {
     /// True position of the robot at each look, m; the first one at its start.
@@ -49,7 +49,7 @@ impl PlaceDrive {
 /// A place map, and drives by it.
 #[derive(Clone, Debug)]
 pub struct DrivenMap {
-    /// The map.
+    /// Place map that was learned.
     pub map: PlaceMap,
     /// True pose of its odometry's origin.
     pub world_from_map: Pose,
@@ -57,7 +57,7 @@ pub struct DrivenMap {
     pub drives: Vec<PlaceDrive>,
 }
 
-/// Reason why drives cannot be made.
+/// Reason why no drives can be made.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum DrivenMapError {
@@ -87,14 +87,14 @@ impl From<PitchError> for DrivenMapError {
     }
 }
 
-/// Pieces of a way that a drive may take.
+/// Maximum number of pieces of way in a drive.
 const MOST_PIECES: u32 = 60;
 
 /// Random stream of a run's seed for the map and the goals.
 const DRIVES: u64 = 4;
 
 /// Gathers `records` records and learns a place map of image and odometry by `config`. Then the
-/// same robot drives on by that map to where `drives` random records were taken. Returns map and
+/// same robot drives on by that map to the places of `drives` random records. Returns map and
 /// drives. `seed` seeds all random numbers.
 ///
 /// # Errors

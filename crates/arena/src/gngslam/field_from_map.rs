@@ -7,9 +7,9 @@ use super::point_score::middle;
 /// A rectangle of the field, in cells, over which the map is stretched.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldExtent {
-    /// The corner of the least x and y.
+    /// Corner of the least x and y, in cells.
     pub min: Point,
-    /// The corner of the greatest x and y.
+    /// Corner of the greatest x and y, in cells.
     pub max: Point,
 }
 
@@ -24,7 +24,8 @@ impl FieldExtent {
         }
     }
 
-    /// Returns the least rectangle that holds the middles of cells; the whole field of no cells.
+    /// Returns the least rectangle that holds the middles of cells; the whole field if there are
+    /// none.
     #[must_use]
     pub fn of_middles(cells: &[Cell]) -> Self {
         let middles = cells.iter().copied().map(middle);
@@ -49,19 +50,20 @@ impl FieldExtent {
 /// The field that maps are compared with, in the world's frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldFrame {
-    /// The direction from the blue goal to the yellow one; the paper draws it straight up.
+    /// Direction from the blue goal to the yellow one; the paper draws it straight up.
     pub yellow_from_blue: Heading,
     /// The rectangle over which the nodes of a map are stretched, in cells.
     pub extent: FieldExtent,
 }
 
-/// From positions in the frame of a map to cells of the field: steps 2 and 3 of the paper's score.
+/// Transform from positions in a map's frame to cells of the field: steps 2 and 3 of the paper's
+/// score.
 ///
 /// A rotation, then one factor for x and one for y, both positive. So nothing is ever mirrored: a
-/// map that is a mirror image of the field stays one, and scores as badly as it is.
+/// map that is a mirror image of the field stays one, and scores accordingly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldFromMap {
-    /// The first row of the rotation, (cos, −sin).
+    /// First row of the rotation, (cos, −sin).
     turn: Vector,
     turned: FieldExtent,
     field: FieldExtent,
@@ -69,7 +71,7 @@ pub struct FieldFromMap {
 
 impl FieldFromMap {
     /// Returns the transform from a map to the field. It turns the map such that the yellow goal
-    /// lies in the right direction from the blue one. Then it stretches the nodes' least and
+    /// lies in the true direction from the blue one. Then it stretches the nodes' least and
     /// greatest x and y to those of the field. `None` if both goals lie at one place or there are
     /// no nodes.
     #[must_use]
@@ -108,7 +110,7 @@ fn turned(turn: Vector, point: Point) -> Point {
     Point::new(turn.dot(&point.coords), second_row.dot(&point.coords))
 }
 
-/// Maps one interval to another; what has no length, to the middle.
+/// Maps one interval to another. An interval without length goes to the middle.
 fn stretched(value: f64, from: (f64, f64), to: (f64, f64)) -> f64 {
     let length = from.1 - from.0;
     let share = if length > 1e-9 {

@@ -69,7 +69,7 @@ pub fn gather_with(
     gather_by(pitch, &mut robot, &mut wanderer, seed, count)
 }
 
-/// Gathers records like `gather`, with a robot and a wanderer of the caller.
+/// Gathers records like [`gather`], with the caller's own robot and wanderer.
 pub(super) fn gather_by(
     pitch: &Pitch,
     robot: &mut Stopping<Simulated<Pioneer2dx>>,

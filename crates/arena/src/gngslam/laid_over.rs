@@ -1,26 +1,26 @@
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_maps::place_graph::PlaceGraph;
 
-/// A place graph laid over the world by where the robot truly was when each place was made.
+/// A place graph laid over the world by the robot's true positions when each place was made.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LaidOver {
     /// Pose of the map's origin in the world.
     pub world_from_map: Pose,
-    /// Root-mean-square distance of the places from where they truly are, m.
+    /// Root-mean-square distance of the places from their true positions, m.
     pub error_m: f64,
 }
 
 impl LaidOver {
-    /// Lays a map over the world so that the squared distances of its places from `sites`, where
-    /// they truly are, are least. `None` for an empty map, or if there are not as many sites as
-    /// places. O(places).
+    /// Lays a map over the world with the least squared distances of its places from `sites`, their
+    /// true positions. `None` for an empty map, or if there are not as many sites as places.
+    /// O(places).
     #[must_use]
     pub fn of(map: &PlaceGraph, sites: &[Point]) -> Option<Self> {
         let places = map.poses().poses().iter();
         Self::of_places(places.map(|pose| pose.position), sites)
     }
 
-    /// Does the same with the places of any map, by id.
+    /// Lays any map over the world by the positions of its places, in order of id.
     #[must_use]
     pub fn of_places(
         places: impl ExactSizeIterator<Item = Point>,

@@ -1,4 +1,4 @@
-//! The worlds and the data of the place map.
+//! Makes the arenas and the data of the place map.
 //!
 //! Goldhoorn, Stadman, Eldering: "Implementation of a Simultaneous Localization and Mapping system
 //! using Growing Neural Gas", 2006. In the order data flows:

@@ -1,4 +1,4 @@
-//! Runs of the system that corrects its pose while it learns, with the truth beside them.
+//! Runs the system that corrects its pose while it learns, and keeps the truth beside.
 
 use core::ops::Range;
 
@@ -19,17 +19,17 @@ use crate::Simulated;
 pub struct LookedFrom {
     /// True pose.
     pub truth: Pose,
-    /// Pose by the system.
+    /// Pose that the system believes in.
     pub corrected: Pose,
-    /// Pose by its wheels, from its true first pose.
+    /// Pose by odometry alone, from the true first pose.
     pub reckoned: Pose,
     /// Whether the system knew where it was.
     pub is_localized: bool,
-    /// Way that the wheels had rolled, m.
+    /// Distance that the wheels had rolled, m.
     pub rolled: f64,
 }
 
-/// A run in an arena.
+/// A run of the online system in an arena.
 #[derive(Clone, Debug)]
 pub struct OnlineRun {
     /// Each look, in order.
@@ -69,8 +69,8 @@ pub enum OnlineRunError {
     System(#[from] OnlineSlamError<StepError>),
 }
 
-/// Lets a robot learn an arena for `looks` looks. `seed` decides everything random: where it
-/// begins, how its wheels are out of calibration, within ± `calibration`, its noise and its turns.
+/// Lets a robot learn an arena for `looks` looks. `seed` seeds all random numbers: its start, its
+/// noise, its turns, and its wheels' calibration errors within ± `calibration`.
 ///
 /// # Errors
 /// [`OnlineRunError`] if the robot cannot be built or put down, or the system cannot go on.
@@ -105,7 +105,7 @@ pub fn localize_online(
     run(system, robot, learned.world_from_map, looks)
 }
 
-/// Returns a robot whose wheels are out of calibration.
+/// Returns a robot whose wheels have calibration errors.
 fn put(
     pitch: &Pitch,
     calibration: f64,

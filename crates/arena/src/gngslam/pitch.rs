@@ -14,7 +14,7 @@ use tolman_systems::stream;
 use super::CellGrid;
 use super::room::Room;
 
-/// An arena of the place map: its world, and what is true of it.
+/// An arena of the place map: its world, and the truth about it.
 #[derive(Clone, Debug)]
 pub struct Pitch {
     /// Its name: see [`named`](Self::named).
@@ -30,7 +30,7 @@ pub struct Pitch {
     pub(super) room: Room,
 }
 
-/// The middle of each goal's foot, looking onto the floor. In random arenas the goals have other
+/// Middle of each goal's foot, with a heading onto the floor. In random arenas the goals have other
 /// colours, and the first is called blue.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Goals {
@@ -128,8 +128,8 @@ impl Pitch {
         self.room.holds(point)
     }
 
-    /// Returns its world as the command sends robots into one: the zone `destination` lies before
-    /// the blue goal, and `start` before the yellow one.
+    /// Returns its world for `tolman`'s commands: the zone `destination` lies before the blue goal,
+    /// and `start` before the yellow one.
     ///
     /// # Errors
     /// None.
@@ -193,7 +193,7 @@ pub const PIONEER_2DX: &str = "Pioneer 2-DX";
 /// `calibration`, drawn from `seed`; with 0 the wheels only slip.
 ///
 /// # Errors
-/// [`PitchError::Calibration`] if that is not a share from 0 to 0.5.
+/// [`PitchError::Calibration`] if `calibration` is not from 0 to 0.5.
 pub fn paper_robot(seed: u64, calibration: f64) -> Result<Pioneer2dxConfig, PitchError> {
     if !(0.0..=0.5).contains(&calibration) {
         return Err(PitchError::Calibration { calibration });

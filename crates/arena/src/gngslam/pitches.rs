@@ -1,4 +1,4 @@
-//! The arenas that are always the same.
+//! Builds the arenas that are always the same.
 
 use alloc::sync::Arc;
 
@@ -24,11 +24,10 @@ pub(super) const BOARDING: f64 = 0.4;
 /// Height of a goal, m. Not in the paper.
 pub(super) const GOAL: f64 = 0.5;
 
-/// The sill of a window behind boarding, m.
+/// Sill of a window behind the boarding, m.
 pub(super) const SILL: f64 = 0.8;
 
-/// The sill of a window in a wall of the floor itself, m: lower, since the robot that looks up at
-/// it is nearer.
+/// Sill of a window in a wall of the floor itself, m. It is lower, since the robot is nearer to it.
 pub(super) const LOW_SILL: f64 = 0.4;
 
 /// Returns a window from its sill, m, to its lintel.
@@ -67,7 +66,7 @@ impl Pitch {
     /// # Errors
     /// None.
     pub fn paper() -> Result<Self, PitchError> {
-        /// Distance from the boarding to the wall of the room, m. The paper does not say.
+        /// Distance from the boarding to the wall of the room, m. Not in the paper.
         const BEHIND: f64 = 1.2;
         let boarding = Material::painted(WHITE).standing(0.0, BOARDING);
         let corners = [(0.0, 0.0), (4.6, 0.0), (4.6, 4.0), (0.0, 4.0)];

@@ -24,7 +24,7 @@ pub enum PutError {
 }
 
 impl Pitch {
-    /// Returns a robot where a run of this `seed` [begins](Self::start), at rest, which stands
+    /// Returns a robot at the [start](Self::start) of a run with this `seed`, at rest. It stands
     /// still when the run is over.
     ///
     /// # Errors

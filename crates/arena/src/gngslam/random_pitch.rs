@@ -14,8 +14,8 @@ use super::room::{Room, Span};
 /// Length of a side, m.
 const SIDE: core::ops::Range<f64> = 3.0..6.5;
 
-/// Between furniture and anything else, m: a lane wide enough for the robot to drive along and turn
-/// in.
+/// Distance between furniture and anything else, m: a lane wide enough for the robot to drive along
+/// and turn in.
 const GAP: f64 = 0.95;
 
 /// Maximum number of pieces of furniture.
@@ -82,7 +82,7 @@ fn closed_room(corners: &[(f64, f64)], windows: usize, rng: &mut ChaCha8Rng) -> 
     room
 }
 
-/// Returns two to four windows on one side, and one thing on each other one.
+/// Returns two to four windows on one side, and one thing on each other side.
 fn decoration(windows: usize, sill: f64, rng: &mut ChaCha8Rng) -> Vec<(Span, Material)> {
     let count = rng.random_range(2_u32..=4);
     let share = f64::from(count).recip();
@@ -114,7 +114,7 @@ fn part_of(side: usize, width: f64, rng: &mut ChaCha8Rng) -> Span {
     }
 }
 
-/// Returns a door, a cupboard or a poster.
+/// Returns the material of a door, a cupboard or a poster, drawn at random.
 fn thing(rng: &mut ChaCha8Rng) -> Material {
     let (base, height) = match rng.random_range(0_u32..3) {
         0 => (0.0, 2.0),
@@ -165,7 +165,7 @@ fn gap(a: &Bounds, b: &Bounds) -> f64 {
     x.max(y)
 }
 
-/// Returns where on a side a goal hangs: 0.9 to 1.6 m of it.
+/// Returns the part of a side that a goal covers, 0.9 to 1.6 m wide.
 fn goal_on(room: &Room, side: usize, rng: &mut ChaCha8Rng) -> Span {
     let width = rng.random_range(0.9..1.6) / room.length(side);
     part_of(side, width, rng)
@@ -178,7 +178,7 @@ fn two_colours(rng: &mut ChaCha8Rng) -> [[u8; 3]; 2] {
     [first, second].map(|hue| strong(hue, rng.random_range(0.6..0.95)))
 }
 
-/// Returns the colour of this hue, in turns, with hardly any white in it.
+/// Returns the nearly saturated colour of this hue, in turns.
 fn strong(hue: f64, brightness: f64) -> [u8; 3] {
     [0.0, 2.0, 4.0].map(|shift: f64| {
         let along = (6.0 * hue + shift) % 6.0;

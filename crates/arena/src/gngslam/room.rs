@@ -1,7 +1,7 @@
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_sim::{Bounds, Material, WallSegment, World, WorldError};
 
-/// Builder of walls: a floor with its outline, things that hang on it, furniture, and the room
+/// Builder of an arena: a floor with its outline, things that hang on it, furniture, and the room
 /// round it.
 #[derive(Clone, Debug)]
 pub(super) struct Room {
@@ -11,7 +11,7 @@ pub(super) struct Room {
     walls: Vec<WallSegment>,
 }
 
-/// Part of a wall: from `from` to `to` along it, both a share of its length.
+/// Part of a wall, from `from` to `to` along it, both as shares of its length.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Span {
     pub(super) side: usize,
@@ -22,7 +22,7 @@ pub(super) struct Span {
 /// Distance of a hanging thing from its wall, m.
 const PROUD: f64 = 0.002;
 
-/// Distance of a goal from the wall, in front of all else that hangs there, m.
+/// Distance of a goal from the wall, m. It hangs in front of everything else.
 const GOAL_PROUD: f64 = 2.0 * PROUD;
 
 impl Room {
@@ -81,7 +81,7 @@ impl Room {
         self.stand((start, end), span, PROUD, material);
     }
 
-    /// Hangs it on the wall behind that side, `behind` m outward.
+    /// Hangs a window, a door or a picture on the wall behind a side, `behind` m outward.
     pub(super) fn hang_behind(&mut self, span: Span, behind: f64, material: Material) {
         let (start, end) = self.around(span.side, behind);
         self.stand((start, end), span, PROUD, material);
@@ -98,7 +98,7 @@ impl Room {
         });
     }
 
-    /// Builds the walls of the room that an open floor lies in, `behind` m outward of it.
+    /// Builds the walls of the room round an open floor, `behind` m outward of it.
     pub(super) fn enclose(&mut self, behind: f64, material: Material) {
         for side in 0..self.outline.len() {
             let (start, end) = self.around(side, behind);
@@ -110,7 +110,8 @@ impl Room {
         }
     }
 
-    /// Returns the wall of the room behind a side of an outline along the axes, a rectangle.
+    /// Returns the wall of the room behind a side of an outline, which must be a rectangle along
+    /// the axes.
     fn around(&self, side: usize, behind: f64) -> (Point, Point) {
         let bounds = self.bounds();
         let middle = bounds.min + (bounds.max - bounds.min) * 0.5;
@@ -153,7 +154,8 @@ impl Room {
         self.surrounds(point) && !furniture.any(|place| place.contains(point))
     }
 
-    /// Returns whether the outline runs round a point: by how often a ray to the east leaves it.
+    /// Returns whether the outline encloses a point: whether a ray to the east crosses it an odd
+    /// number of times.
     fn surrounds(&self, point: Point) -> bool {
         let crossings = (0..self.outline.len()).filter(|side| {
             let (start, end) = self.side(*side);
@@ -205,7 +207,7 @@ mod tests {
         assert_eq!(room.world().unwrap().walls().len(), 10);
     }
 
-    /// A thing on the south wall hangs north of it, and one behind hangs on the wall behind.
+    /// A thing on the south wall hangs north of it. A thing behind hangs on the wall behind.
     #[test]
     fn things_hang_inside() {
         let corners = [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 3.0)];

@@ -7,12 +7,12 @@ use tolman_quantizers::UnitId;
 use super::point_score::middle;
 use super::{DataSet, FieldExtent, FieldFrame, FieldFromMap, GoalRecords, Pitch, PointScore};
 
-/// The nodes of a map that are nearest to the goals.
+/// Nodes of a map nearest to the goals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GoalNodes {
-    /// The node nearest to the blue goal.
+    /// Node nearest to the blue goal.
     pub blue: UnitId,
-    /// The node nearest to the yellow goal.
+    /// Node nearest to the yellow goal.
     pub yellow: UnitId,
 }
 
@@ -27,10 +27,10 @@ pub struct PlaceScorer {
 /// Quality of a place map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlaceScore {
-    /// The mean over the records that were asked about.
+    /// Mean over the records that were asked about.
     pub mean: PointScore,
-    /// Whether it is a mirror image of the field, like the paper's maps: records taken
-    /// counter-clockwise around their middle are clockwise on it.
+    /// Whether it is a mirror image of the field, like the paper's maps: records that lie
+    /// counter-clockwise around their middle are clockwise on the map.
     pub mirrored: bool,
 }
 
@@ -46,8 +46,8 @@ impl PlaceScorer {
         Self::of(labels.collect(), data.goals, Heading::of(to_yellow))
     }
 
-    /// Returns the same of the cell of each record, from record 0 on, and the true direction from
-    /// the blue goal to the yellow one.
+    /// Returns the scorer for the true cells of the records, from record 0 on, and the true
+    /// direction from the blue goal to the yellow one.
     #[must_use]
     pub fn of(cells: Vec<Cell>, goals: GoalRecords, yellow_from_blue: Heading) -> Self {
         let extent = FieldExtent::of_middles(&cells);
@@ -83,8 +83,7 @@ impl PlaceScorer {
         self.score_by(map, table, &a_fifth(self.cells.len(), rng))
     }
 
-    /// Scores a map by some of the records, such as those it did not learn from, and returns the
-    /// score.
+    /// Scores a map by some of the records, such as those it did not learn from.
     ///
     /// # Errors
     /// As [`score`](Self::score).
@@ -121,8 +120,7 @@ impl PlaceScorer {
         })
     }
 
-    /// Returns the transform from the map to the field: steps 1 to 3 of the score. `None` if both
-    /// goals are nearest to one node.
+    /// Returns a fifth of the numbers below `count`, at random and without duplicates.
     ///
     /// # Errors
     /// As [`score`](Self::score).
@@ -199,7 +197,7 @@ mod tests {
 
     use super::*;
 
-    /// Returns records anywhere on the pitch with perfect odometry, and the two goals.
+    /// Returns records at random positions on the pitch with perfect odometry, and the two goals.
     fn records(seed: u64, frame: Pose) -> (Vec<PlaceRecord>, Vec<Cell>) {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let record = |x: f64, y: f64| PlaceRecord {

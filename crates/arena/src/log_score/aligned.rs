@@ -9,12 +9,12 @@ pub struct AlignedScore {
     pub rms: f64,
     /// Greatest distance, m.
     pub largest: f64,
-    /// The rigid motion from the first to the second.
+    /// Rigid motion from the first trajectory to the second.
     pub truth_from_found: Pose,
 }
 
 impl AlignedScore {
-    /// Returns the score of pairs of a position found and the true one; `None` if there are none.
+    /// Returns the score of pairs of a found and a true position; `None` if there are none.
     /// O(pairs).
     ///
     /// Source: S. Umeyama: Least-Squares Estimation of Transformation Parameters, 1991, in the

@@ -4,22 +4,22 @@ use tolman_robot::{PoseRelation, Trajectory};
 /// Errors of a trajectory by known relations between its poses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RelationScore {
-    /// Relations whose two times lie on the trajectory.
+    /// Number of relations whose two times lie on the trajectory.
     pub relations: usize,
-    /// Those that do not, and count nowhere.
+    /// Number of relations whose times do not, which count nowhere.
     pub missed: usize,
-    /// Mean distance of where the second pose lies, seen from the first, from where it should, m.
+    /// Mean error of the second pose's position relative to the first's, m.
     pub error: f64,
     /// Mean error of the heading, rad.
     pub turn_error: f64,
-    /// Relations whose times lie more than [`FAR`](Self::FAR) apart.
+    /// Number of relations whose times lie more than [`FAR`](Self::FAR) apart.
     pub far_relations: usize,
-    /// The mean distance over those alone, m; `None` if there are none.
+    /// Mean position error over those alone, m; `None` if there are none.
     pub far_error: Option<f64>,
 }
 
 impl RelationScore {
-    /// Time between two poses above which they count as far apart, s: the robot has come back in
+    /// Time above which two poses count as far apart, s: the robot has left and come back in
     /// between.
     pub const FAR: f64 = 30.0;
 

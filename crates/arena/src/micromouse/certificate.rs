@@ -1,4 +1,4 @@
-//! The checker of a mouse's proof that no second run takes fewer steps.
+//! Checks a mouse's proof that no second run takes fewer steps.
 
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Maze};
 use tolman_systems::micromouse::Certificate;
@@ -8,20 +8,24 @@ use tolman_systems::micromouse::Certificate;
 #[non_exhaustive]
 pub enum CertificateError {
     /// The certificate is about another maze.
-    #[error("the certificate is for a maze with another size, start or goals")]
+    #[error(
+        "the certificate is for a maze with another size, start or goals; check it with the maze it was made for"
+    )]
     OtherMaze,
     /// The certificate states something false about a wall.
-    #[error("the certificate says that the {direction} side of {cell} is {known:?}, but it is not")]
+    #[error(
+        "the certificate says that the {direction} side of {cell} is {known:?}, but it is not; explore the maze again"
+    )]
     FalseWall {
-        /// The cell.
+        /// Cell of the wall.
         cell: Cell,
-        /// The side of it.
+        /// Side of the cell.
         direction: Direction,
-        /// The state that it claims.
+        /// State that the certificate claims.
         known: Knowledge,
     },
     /// The certificate lacks a number for some cell, or names a wall that the maze does not have.
-    #[error("the certificate has {found} numbers where the maze has {cells} cells")]
+    #[error("the certificate has {found} numbers for {cells} cells; give one per cell")]
     Size {
         /// Number of numbers in the certificate.
         found: usize,
@@ -29,7 +33,7 @@ pub enum CertificateError {
         cells: usize,
     },
     /// The run does not lead from the start to a goal.
-    #[error("the run does not begin at the start and end at a goal")]
+    #[error("the run has to begin at the start and end at a goal")]
     Ends,
     /// A step of the run is not known to be possible.
     #[error("step {index} of the run, from {from} to {to}, is not known to be possible")]
@@ -53,7 +57,7 @@ pub enum CertificateError {
         /// Lower bound claimed for any run.
         open: u32,
     },
-    /// The bound has a hole.
+    /// A step breaks the lower bound.
     #[error(
         "the bound does not hold: a step from {from}, at least {at_least} from the goal, leads to {to}"
     )]
@@ -67,8 +71,7 @@ pub enum CertificateError {
     },
 }
 
-/// Maximum number of cells of a step, written down again: the checker takes nothing from the
-/// planners.
+/// Maximum number of cells of a step, defined here again: the checker uses nothing of the planners.
 const MOST_CELLS: u32 = 3;
 
 /// Checks that `certificate` holds in `maze`. Its statements about walls must be true, its run
@@ -179,7 +182,7 @@ fn check_bound(
     Ok(())
 }
 
-/// Returns that the costs disagree, if `open` can be hoped for.
+/// Returns the error that the costs disagree, if `open` can be hoped for.
 const fn costs(certificate: &Certificate, open: u32) -> CertificateError {
     CertificateError::Costs {
         run: certificate.run.len().saturating_sub(1),
@@ -188,7 +191,7 @@ const fn costs(certificate: &Certificate, open: u32) -> CertificateError {
     }
 }
 
-/// Returns where one step in a direction may end.
+/// Returns the cells in which one step in a direction may end, the nearest first.
 fn reach(
     grid: Grid,
     from: Cell,
@@ -235,7 +238,7 @@ o---o---o---o---o---o
         mouse.certificate().unwrap().clone()
     }
 
-    /// Returns the checker's error once the certificate is changed.
+    /// Returns the checker's error after `change` to the certificate.
     fn refuse(change: impl FnOnce(&mut Certificate)) -> CertificateError {
         let maze = maze();
         let mut certificate = certificate(&maze);

@@ -1,4 +1,4 @@
-//! A trial against the best possible one.
+//! Compares a trial with the best possible one.
 
 use serde::Serialize;
 use tolman_maze::Maze;
@@ -20,7 +20,7 @@ pub struct Judgement {
     pub score: Option<f64>,
     /// Minimum number of steps from the start to a goal.
     pub optimum: u32,
-    /// The score of a mouse that knows the maze: there, a reset, and there again.
+    /// Score of a mouse that knows the maze: to the goal, a reset, and to the goal again.
     pub floor: f64,
     /// Whether the mouse proved that its second run is the best, and the independent checker
     /// agrees.
@@ -62,15 +62,14 @@ impl Judgement {
     }
 }
 
-/// Returns the score of a mouse that knows its maze, whose best run takes `optimum` steps: there, a
-/// reset, and there again.
+/// Returns the score of a mouse that knows its maze, whose best run takes `optimum` steps: to the
+/// goal, a reset, and to the goal again.
 #[must_use]
 pub fn floor(optimum: u32) -> f64 {
     f64::from(optimum) + f64::from(optimum + 1) / 30.0
 }
 
-/// Sends a mouse with a search through `maze` and judges it; what the search draws follows from
-/// `seed`.
+/// Sends a mouse with a search through `maze` and judges it. `seed` seeds what the search draws.
 ///
 /// # Errors
 /// If no mouse can run in the maze.
@@ -82,7 +81,8 @@ pub fn try_on(
     watch(maze, searcher, seed, |_| {})
 }
 
-/// Does the same, and calls `see` with every step as soon as it is made.
+/// Sends and judges a mouse like [`try_on`]. Calls `see` with every step as soon as
+/// it is made.
 ///
 /// # Errors
 /// If no mouse can run in the maze.

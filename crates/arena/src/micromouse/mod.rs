@@ -1,5 +1,5 @@
-//! The virtual maze of "Plot and Navigate a Virtual Maze" (Wang): the two runs of a mouse, and the
-//! referee.
+//! Plays the virtual maze of "Plot and Navigate a Virtual Maze" (Wang): the two runs of a mouse,
+//! under a referee.
 //!
 //! A mouse, a [`Driver`](tolman_systems::micromouse::Driver), may give up to 1000 orders. In the
 //! first run it explores; in the second it has to reach the goal. The [`Referee`] moves it and

@@ -1,5 +1,5 @@
-//! The paper's mouse on the continuous simulator (its section 6): walls have a thickness, wheels
-//! slip, ranges are noisy.
+//! Runs the paper's mouse on the continuous simulator (its section 6): walls have a thickness,
+//! wheels slip, ranges are noisy.
 //!
 //! Rules and score are those of the paper. The mouse is a [`NoisyMouse`]; here are its body, its
 //! maze, and the referee that knows its true pose.
@@ -17,7 +17,7 @@ use tolman_systems::micromouse::noisy::{
 
 use super::{MAX_STEPS, RefereeError, brief};
 
-/// Errors of a mouse's wheels and sensors, and its means against them.
+/// Errors of a mouse's wheels and sensors, and the source of its pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct NoisyConfig {
@@ -67,7 +67,7 @@ impl NoisyConfig {
         robot
     }
 
-    /// Returns what the mouse knows of its body and its maze.
+    /// Returns the mouse's configuration: its model of its body and its maze.
     fn mouse(&self, robot: &LaserPioneerConfig) -> NoisyMouseConfig {
         let mut mouse =
             NoisyMouseConfig::new(SIZE.pitch(), robot.turn_per_step, robot.translate_per_step);
@@ -77,7 +77,7 @@ impl NoisyConfig {
         mouse
     }
 
-    /// Returns the noise model of the filter: the true noise, and a little for what its model
+    /// Returns the noise model of the filter: the true noise, plus a little for what the model
     /// leaves out.
     fn filter(&self) -> PoseFilterConfig {
         let mut filter = PoseFilterConfig::for_pitch(SIZE.pitch());
@@ -120,14 +120,14 @@ pub enum NoisyEnd {
     Arrived {
         /// Number of steps of the first run, the reset included.
         run_1: u32,
-        /// Number of steps of the second.
+        /// Number of steps of the second run.
         run_2: u32,
     },
     /// The mouse said that it was at the goal and was not.
     Mistaken,
     /// The mouse believes that no way leads to the goal.
     Stuck,
-    /// The mouse had made all its steps.
+    /// The mouse has made all its steps.
     OutOfSteps,
 }
 
@@ -156,7 +156,7 @@ pub enum NoisyError {
 }
 
 /// Sends a mouse through `maze` and returns the trial. It explores until it believes that its run
-/// is proven, is put back to the start, and makes it.
+/// is proven, is put back to the start, and makes that run.
 ///
 /// # Errors
 /// If the maze or the mouse is invalid.
@@ -235,7 +235,7 @@ impl<'a> Outing<'a> {
         Ok(Some(NoisyEnd::OutOfSteps))
     }
 
-    /// Lets the mouse look, and records its distance from its believed position.
+    /// Lets the mouse look, and records the distance of its believed position from the true one.
     fn stop(&mut self) -> Result<(), NoisyError> {
         self.mouse.look(&mut self.body)?;
         let off = self.mouse.pose().position - self.body.truth().pose.position;
@@ -245,7 +245,7 @@ impl<'a> Outing<'a> {
         Ok(())
     }
 
-    /// Returns whether it really is in a goal.
+    /// Returns whether the mouse really is in a goal.
     fn is_at_goal(&self) -> bool {
         let position = self.body.truth().pose.position;
         let cell = self.mouse.belief().cell_at(position);

@@ -1,11 +1,11 @@
-//! Q-learning in a maze, as the paper discusses it (section 3.2, equation 2).
+//! Learns a maze by Q-learning, as the paper discusses it (section 3.2, equation 2).
 
 use tolman_maze::{Cell, Direction, Maze};
 
 use tolman_systems::baselines::q_learning::{LearningTask, Transition};
 
-/// A maze as a task: a step is one cell in some direction, a step against a wall goes nowhere, and
-/// each step costs 1. Cells are numbered by [`tolman_maze::Grid::index`].
+/// A maze as a learning task: a step is one cell in some direction, a step against a wall goes
+/// nowhere, and each step costs 1. Cells are numbered by [`tolman_maze::Grid::index`].
 #[derive(Clone, Debug)]
 pub struct CellTask<'a> {
     maze: &'a Maze,

@@ -1,9 +1,9 @@
-//! The rules of the paper's test program, taken literally.
+//! Applies the rules of the paper's test program, taken literally.
 
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_systems::micromouse::{Brief, Movement, Order, OrderError, Rotation, Sight};
 
-/// Number of steps that both runs may take together.
+/// Maximum number of steps of both runs together.
 pub const MAX_STEPS: u32 = 1000;
 
 /// Maximum number of cells of one movement.
@@ -13,8 +13,8 @@ const MOST_CELLS: i32 = 3;
 ///
 /// The rules are those of the test program that came with the paper's task; they are independent of
 /// how any mouse thinks. Every order counts as a step before it is carried out, and an order beyond
-/// the last step is not carried out. The goal is what the maze marks; in files of the paper's
-/// format that is the middle 2 × 2.
+/// the last step is not carried out. The maze marks the goal; in files of the paper's format it is
+/// the middle 2 × 2.
 ///
 /// ```
 /// use tolman_arena::micromouse::{Referee, Ruling};
@@ -45,7 +45,7 @@ pub struct Referee<'a> {
 enum Stage {
     /// The first run, before a movement has ended on a goal.
     Seeking,
-    /// The first run, after that.
+    /// The first run, after a movement has ended on a goal.
     Exploring,
     /// The second run.
     RunTwo,
@@ -59,12 +59,12 @@ pub enum Ruling {
     Moved,
     /// The mouse stands at the start again: the second run begins.
     RunTwo,
-    /// A reset that is not allowed, before the goal was reached or in the second run: nothing
-    /// happened, the step counts.
+    /// A reset was refused, because the goal was not reached yet or the second run has begun. The
+    /// step counts.
     ResetRefused,
-    /// The movement ended on a goal in the second run: done.
+    /// The movement ended on a goal in the second run: the trial is over.
     Finished,
-    /// No step was left, or the runs are over: nothing happened.
+    /// The order was ignored, because no step is left or the runs are over.
     Over,
 }
 
@@ -78,8 +78,8 @@ pub struct ScoreSheet {
 }
 
 impl ScoreSheet {
-    /// Returns a thirtieth of the first run and the whole second one, or `None` if the mouse did
-    /// not finish.
+    /// Returns the score, a thirtieth of the first run's steps plus the second's, or `None` if the
+    /// mouse did not finish.
     #[must_use]
     pub fn score(&self) -> Option<f64> {
         Some(f64::from(self.run_1?) / 30.0 + f64::from(self.run_2?))
@@ -93,12 +93,12 @@ pub enum RefereeError {
     /// The maze does not say where the mouse starts.
     #[error("the maze has no start: mark a cell with S")]
     NoStart,
-    /// The maze cannot be used.
+    /// The maze is invalid.
     #[error(transparent)]
     Maze(#[from] tolman_maze::CheckError),
 }
 
-/// Returns the knowledge of a mouse about `maze` beforehand: its size, its start and its goals.
+/// Returns the mouse's initial knowledge of `maze`: its size, its start and its goals.
 ///
 /// # Errors
 /// [`RefereeError::NoStart`] if the maze has no start.
@@ -154,7 +154,7 @@ impl<'a> Referee<'a> {
     /// Carries out one order.
     ///
     /// # Errors
-    /// If the test program would have broken off; nothing happened.
+    /// If the test program would have broken off; the order has no effect then.
     pub fn take(&mut self, order: Order) -> Result<Ruling, OrderError> {
         if let (Rotation::Degrees(degrees), Movement::Reset(_)) = (order.rotation, order.movement) {
             return Err(OrderError::HalfReset { degrees });
@@ -198,7 +198,7 @@ impl<'a> Referee<'a> {
         Ruling::RunTwo
     }
 
-    /// Rules on the end of a movement: only there does the goal count.
+    /// Judges the end of a movement; only there does the goal count.
     fn arrive(&mut self) -> Ruling {
         if !self.maze.goals().contains(&self.cell) {
             return Ruling::Moved;
@@ -216,7 +216,7 @@ impl<'a> Referee<'a> {
         }
     }
 
-    /// Returns whether the runs are over, or the time is.
+    /// Returns whether the runs are over or no step is left.
     #[must_use]
     pub fn is_over(&self) -> bool {
         self.stage == Stage::Over || self.steps >= MAX_STEPS

@@ -1,4 +1,4 @@
-//! Both runs of one mouse in one maze.
+//! Plays both runs of one mouse in one maze.
 
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_systems::micromouse::{Driver, MouseError, Order, OrderError, Search, Sight};
@@ -31,12 +31,12 @@ pub struct RefereedStep {
     pub heading: Direction,
 }
 
-/// The side of a cell that a mouse has looked at.
+/// Side of a cell that a mouse has looked at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SideSeen {
-    /// The cell.
+    /// Cell to which the side belongs.
     pub cell: Cell,
-    /// Its side.
+    /// Side of the cell.
     pub side: Direction,
     /// Whether a wall stands there.
     pub stands: bool,
@@ -69,19 +69,19 @@ pub fn sides_seen(sight: Sight, cell: Cell, heading: Direction) -> Vec<SideSeen>
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MouseTrialError {
-    /// The maze will not do.
+    /// The maze is invalid.
     #[error(transparent)]
     Referee(#[from] RefereeError),
     /// No mouse can be made for this maze.
     #[error(transparent)]
     Mouse(#[from] MouseError),
-    /// The mouse gave an order that the rules do not know.
+    /// The mouse gave an order that breaks the rules.
     #[error("the mouse broke the rules")]
     Order(#[from] OrderError),
 }
 
 impl MouseTrial {
-    /// Lets the mouse run until it is done, gives up or the time is over.
+    /// Lets the mouse run until it is done, gives up or has no step left.
     ///
     /// # Errors
     /// If the referee refuses the maze or an order.
@@ -89,7 +89,7 @@ impl MouseTrial {
         Self::watch(maze, mouse, |_| {})
     }
 
-    /// Does the same as `play`, and calls `see` with every step as soon as it is made.
+    /// Plays like [`play`](Self::play), and calls `see` with every step as soon as it is made.
     ///
     /// # Errors
     /// If the referee refuses the maze or an order.

@@ -5,7 +5,7 @@ use super::Simulator;
 use super::simulator::eighths_of;
 use crate::micromouse::SideSeen;
 
-/// A line of a mouse, and the reply.
+/// Line of a mouse, and the reply.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Exchange {
     /// Line of the mouse.
@@ -16,7 +16,7 @@ pub struct Exchange {
     pub place: LatticePoint,
     /// Heading afterwards.
     pub heading: LatticeHeading,
-    /// Whether it moved, turned, ran against a wall or was put back.
+    /// Whether the mouse moved, turned, ran into a wall or was put back.
     pub is_movement: bool,
 }
 
@@ -37,8 +37,8 @@ impl Exchange {
     }
 
     /// Returns the sides of cells that the reply reveals in a maze of this size; empty unless it
-    /// answers a question for walls. If a wall stands within several half-steps, it is the one side
-    /// of which the mouse does not know that it `is_open`.
+    /// answers a wall query. If a wall stands within several half-steps, its side alone is not
+    /// known to be open.
     #[must_use]
     pub fn sides_seen(
         &self,
@@ -82,7 +82,7 @@ impl Exchange {
     }
 }
 
-/// Returns the side of a cell that lies half a step ahead of a place, if one does.
+/// Returns the side of a cell that lies half a step ahead of a place, or `None` if there is none.
 fn ahead(place: LatticePoint, heading: LatticeHeading, grid: Grid) -> Option<(Cell, Direction)> {
     let is_middle = place.x % 2 == 1 && place.y % 2 == 1;
     match (place.gate(heading, grid), heading.side()) {

@@ -1,4 +1,4 @@
-//! Runs a mouse that is a program of its own.
+//! Runs a mouse that is a separate program.
 
 use core::time::Duration;
 
@@ -24,9 +24,9 @@ pub struct Limits {
 pub struct Hosted {
     /// Whether it finished a run.
     pub solved: bool,
-    /// The score as the code of mms counts it; 2000 if unsolved.
+    /// Score as the code of mms computes it; 2000 if unsolved.
     pub score: f32,
-    /// The score as the README of mms has it; 2000 if unsolved.
+    /// Score as the README of mms defines it; 2000 if unsolved.
     pub score_in_cells: f32,
     /// Way in which the mouse ended.
     pub ended: MouseExit,
@@ -57,7 +57,7 @@ pub enum MouseExit {
     OutOfMovements,
     /// The mouse wrote a line longer than any command.
     LineTooLong,
-    /// The mouse wrote more than a mouse ever needs to.
+    /// The mouse wrote more than any mouse needs to.
     TooMuchOutput,
     /// The mouse closed its stdout and ran on.
     ClosedOutput,
@@ -65,13 +65,13 @@ pub enum MouseExit {
     Interrupted,
 }
 
-/// Time in which a mouse that has closed its stdout is to end. On a busy machine one that does
-/// end at once may need a second.
+/// Time within which a mouse that has closed its stdout must end. On a busy machine even one that
+/// ends at once may need a second.
 const GRACE: Duration = Duration::from_secs(5);
 
 /// Runs a program as a mouse in a maze, until it ends or a limit is reached, and returns the
-/// result. Then the program is killed, with all that it started. Calls `watch` with every line and
-/// its answer.
+/// result. Then the program is killed, with all processes that it started. Calls `watch` with every
+/// line and its answer.
 ///
 /// # Errors
 /// [`LaunchError`] if it does not start. A program that fails, or does not solve the maze, is a
@@ -121,7 +121,7 @@ pub fn host(
 enum Said {
     /// The mouse closed its stdout.
     AllItWould,
-    /// The mouse has made all its movements.
+    /// The mouse has made all its allowed movements.
     AllItMay,
 }
 

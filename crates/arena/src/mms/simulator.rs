@@ -58,8 +58,8 @@ const DRAWING: [&str; 8] = [
     "clearAllText",
 ];
 
-/// Returns where a question for a wall looks, in eighths of a circle, clockwise from ahead; `None`
-/// of other commands.
+/// Returns the direction in which a wall query looks, in eighths of a circle, clockwise from ahead.
+/// `None` for other commands.
 pub(super) fn eighths_of(command: &str) -> Option<i8> {
     let wall = WALLS.iter().find(|(name, _)| *name == command);
     wall.map(|(_, eighths)| *eighths)

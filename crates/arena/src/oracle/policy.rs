@@ -87,7 +87,8 @@ impl Policy {
         self.costs[self.lattice.nearest(pose) as usize]
     }
 
-    /// Returns where an action leads from about `pose` without noise, or `None` where it fails.
+    /// Returns the position where an action ends from about `pose` without noise, or `None` where
+    /// it fails.
     pub(super) fn end(&self, pose: Pose, action: Direction) -> Option<Point> {
         let head = self.ends[self.lattice.nearest(pose) as usize][action.index()]?;
         Some(self.lattice.pose(head).position)

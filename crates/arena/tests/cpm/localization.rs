@@ -120,7 +120,8 @@ fn from_mid_fragment_before_the_next_junction() {
     assert!(at >= before);
 }
 
-/// In a place entered by another way other ways lie ahead: what no sequence tells, the bearings do.
+/// A place entered by another way has other ways ahead. Bearings tell fragments apart that no
+/// sequence does.
 #[test]
 fn where_ways_lead_tells_fragments_apart_that_look_alike() {
     let noise = WalkerNoise {
@@ -363,8 +364,8 @@ fn one_sequence_recalls_its_path_and_environment() {
     assert!(100 * right >= 95 * all, "{right} of {all}");
 }
 
-/// Two corridors that end alike and begin differently: what lies behind tells which of them it is,
-/// and which way the robot goes then.
+/// Two corridors end alike and begin differently. The end behind the robot tells which of them it
+/// is in, and which way it goes.
 #[test]
 fn who_turns_round_knows_by_the_other_end() {
     let mut dictionary = Dictionary::new(1);

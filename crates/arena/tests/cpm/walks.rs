@@ -27,7 +27,8 @@ pub(crate) fn dictionary() -> Dictionary {
     dictionary
 }
 
-/// Fragment A is 0 2 4 6, B is 8 10 12 14, and so on: each with patterns of its own.
+/// Returns the patterns of a fragment, which no other has: A is 0 2 4 6, B is 8 10 12 14, and so
+/// on.
 fn fragment(name: u32, length: u32) -> Vec<PatternId> {
     (0..length)
         .map(|place| PatternId((8 * name + 2 * (place % 4)) % 40))

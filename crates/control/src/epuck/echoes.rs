@@ -3,7 +3,7 @@ use tolman_robot::epuck::{PROXIMITY_SENSORS, proximity_mounts};
 
 use super::RangeCurve;
 
-/// What the eight proximity sensors meet right now: a point each in the robot's frame, m, or
+/// Present echoes of the eight proximity sensors: one point each in the robot's frame, m, or
 /// nothing within reach.
 ///
 /// The sensors are numbered as [`proximity_mounts`]: 0 and 7 look ahead, 1 and 6 diagonally, 2 and

@@ -190,8 +190,8 @@ mod tests {
 
     const WIDTH: f64 = 0.25;
 
-    /// Returns what it senses 3 cm off the middle to the right, where the wall on the left ends so
-    /// far ahead.
+    /// Returns the echoes 3 cm right of a corridor's middle, where the wall on the left ends
+    /// `ahead`, m.
     fn beside_a_wall(ahead: f64) -> Echoes {
         let curve = RangeCurve::new(alloc::vec![(0.0, 1.0), (0.25, 0.0)]).unwrap();
         let to_wall = WIDTH / 2.0 + 0.03;

@@ -3,7 +3,7 @@ use tolman_robot::epuck::BODY_RADIUS;
 
 use super::Echoes;
 
-/// Layer 0: keeps the robot off walls and off what comes towards it (section 3.2).
+/// Layer 0: keeps the robot away from walls and from anything that approaches it (section 3.2).
 ///
 /// It slows the proposal down as something comes near ahead, and turns away from it.
 /// The paper gives no values.
@@ -68,7 +68,7 @@ impl KeepOff {
         }
     }
 
-    /// Corrects what the layer above proposes.
+    /// Corrects the proposal of the layer above.
     #[must_use]
     pub fn correct(&self, proposal: Twist, echoes: &Echoes) -> Twist {
         // What lies behind the wheels' axle is left behind by driving ahead.

@@ -17,7 +17,7 @@ pub struct Pilot<R> {
     forward: Forward,
 }
 
-/// Smallest turn that the real robot's encoders can tell, rad: each wheel by a step, against the
+/// Minimum turn that the real robot's encoders can resolve, rad: each wheel by a step, against the
 /// other.
 pub const TURN_STEP: f64 = 2.0 * ENCODER_STEP * WHEEL_RADIUS / TRACK;
 
@@ -43,16 +43,16 @@ pub struct PilotConfig {
         serde(deserialize_with = "crate::read::at_least_one")
     )]
     pub samples: u32,
-    /// Speed of turning in a sweep, rad/s. The paper says 2π, the wheels give 4.9; the real robot
-    /// had 3π/5.
+    /// Speed of turning in a sweep, rad/s. The paper says 2π, but the wheels reach only 4.9; the
+    /// real robot had 3π/5.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub sweep_speed: f64,
-    /// Maximum commanded speed of a wheel, rad/s: what they can do, 6.28.
+    /// Maximum commanded speed of a wheel, rad/s: at most the wheels' limit, 6.28.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub most_wheel_speed: f64,
     /// Maximum error at which a turn ends, rad. It must be at least what the encoders can resolve:
-    /// [`TURN_STEP`] on the real robot, next to nothing where they are exact. What is left of a
-    /// sample's turn is made up for by the next.
+    /// [`TURN_STEP`] on the real robot, next to nothing where they are exact. The next sample's
+    /// turn compensates the error.
     #[cfg_attr(
         feature = "serde",
         serde(deserialize_with = "crate::read::at_least_zero")
@@ -109,7 +109,7 @@ where
         Self::resume(robot, config, forward)
     }
 
-    /// Returns a pilot that goes on with this robot where its layer 1 left off.
+    /// Returns a pilot that continues with this robot from the state of its layer 1.
     pub const fn resume(robot: R, config: PilotConfig, forward: Forward) -> Self {
         Self {
             robot,
@@ -133,7 +133,7 @@ where
         &mut self.robot
     }
 
-    /// Returns the free distance straight ahead, m, or `None` if nothing is met.
+    /// Returns the free distance straight ahead, m, or `None` without an echo.
     pub fn ahead(&self) -> Option<f64> {
         self.echoes().ok()?.ahead()
     }
@@ -178,8 +178,8 @@ where
     }
 
     /// Drives forward along the path for about `seconds` seconds: layer 1 proposes, layer 0
-    /// corrects. What layer 1 turns in place in a bend is not forward and does not count, up to ten
-    /// times as long.
+    /// corrects. Turning in place in a bend does not count as forward, but is limited to ten times
+    /// as long.
     ///
     /// # Errors
     /// If the robot fails, or its proximity sensors give nothing.
@@ -200,8 +200,8 @@ where
         Ok(())
     }
 
-    /// Stands still for a time step, so that the sensors read what is round the robot now. After it
-    /// was carried elsewhere, they still hold the readings of its old position.
+    /// Stands still for a time step, so that the sensors read the present surroundings. After the
+    /// robot was carried elsewhere, they still hold the readings of its old position.
     ///
     /// # Errors
     /// If the robot fails.
@@ -219,7 +219,7 @@ where
     }
 
     /// Drives straight to a point of its own frame, m, as far as layer 0 lets it. It drives ahead
-    /// or backward, whichever needs the smaller turn. Then it turns back to the heading it had.
+    /// or backward, whichever needs the smaller turn. Then it turns back to its former heading.
     ///
     /// # Errors
     /// If the robot fails, or its sensors give nothing.
@@ -272,7 +272,7 @@ where
         Ok(turned)
     }
 
-    /// Returns one time step at this twist times `share`.
+    /// Drives for one time step at `twist` times `share`.
     fn drive(&mut self, twist: Twist, share: f64) -> Result<(), PilotError<R::Error>> {
         let part = Twist::new(twist.linear * share, twist.angular * share);
         let speeds = WheelSpeeds::of_twist(part, self.config.most_wheel_speed);
@@ -301,10 +301,10 @@ pub enum PilotError<E> {
         "the proximity sensors give no values, and nothing else keeps the robot off the walls; check them"
     )]
     Blind,
-    /// The wheels do not say how far they turned.
+    /// The wheels do not report their turns.
     #[error("the encoders give no values; check them")]
     NoEncoders,
-    /// The wheels were told to turn and did not.
+    /// The wheels were commanded to turn and did not.
     #[error("the wheels do not turn although commanded to; check the motors")]
     Stuck,
 }

@@ -7,8 +7,8 @@ use tolman_robot::epuck::{PROXIMITY_SENSORS, proximity_mounts};
 
 use super::{RangeCurve, Sweep};
 
-/// What is round the robot: one value for each bearing, the mean over all sensors of a [`Sweep`];
-/// the larger the nearer.
+/// Surroundings of the robot: one value for each bearing, the mean over all sensors of a [`Sweep`];
+/// larger is nearer.
 ///
 /// Value *k* of *n* belongs to the bearing *k* · 360°/*n*, counter-clockwise from ahead. The last
 /// is the neighbour of the first.
@@ -35,7 +35,7 @@ pub enum SensorAlignment {
     /// averaged with itself.
     #[default]
     Mounts,
-    /// Sample by sample as the paper says ("these vectors are reduced to one single vector by
+    /// Sample by sample, as in the paper ("these vectors are reduced to one single vector by
     /// averaging"), which mixes eight bearings.
     Literal,
 }
@@ -111,8 +111,8 @@ impl Profile {
         Self { values }
     }
 
-    /// Returns what is met at every bearing, in the robot's frame, m; where nothing is met, the
-    /// farthest point that could be.
+    /// Returns the point that each bearing's reading stands for, in the robot's frame, m. Where
+    /// nothing is met, it is the farthest point in reach.
     pub(super) fn echoes(&self, curve: &RangeCurve) -> impl Iterator<Item = (Point, Met)> + '_ {
         // The sensors sit on a circle.
         let mounts = proximity_mounts();
@@ -168,7 +168,7 @@ impl Profile {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum ProfileError {
-    /// There is nothing to average.
+    /// The sweep has no samples.
     #[error("the sweep has no samples; sweep first")]
     Empty,
     /// A value is invalid.

@@ -112,7 +112,7 @@ impl RangeCurve {
         }
     }
 
-    /// Returns the farthest range that can be told, m.
+    /// Returns the greatest range that can be measured, m.
     #[must_use]
     pub fn reach(&self) -> f64 {
         self.points.last().map_or(0.0, |point| point.0)

@@ -307,8 +307,8 @@ impl Segments {
         }
     }
 
-    /// Returns the input of SOINN: the means, filled up to ten with zeros, and what is known of a
-    /// landmark here (0 for none).
+    /// Returns the input of SOINN: the means, filled up to ten with zeros, and the landmark element
+    /// (0 for none).
     ///
     /// # Errors
     /// If there are more than ten segments: "the vector's size might be more than ten if the

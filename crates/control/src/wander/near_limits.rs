@@ -2,7 +2,7 @@ use core::f64::consts::FRAC_PI_2;
 
 use tolman_robot::Sounding;
 
-/// How near a thing may come: ahead, and beside.
+/// Minimum distances of things: ahead, and beside.
 ///
 /// A sensor that looks to the side may be nearer to a wall than one that looks ahead. The wall only
 /// has to be beside the robot's lane. Its threshold is `side` divided by the sine of the angle
@@ -37,8 +37,8 @@ pub struct NearLimits {
 }
 
 impl NearLimits {
-    /// Returns the paper's: 1.1 m at the front, 0.15 m at the sides (section 3.2). It gives nothing
-    /// between them.
+    /// Returns the paper's limits: 1.1 m at the front, 0.15 m at the sides (section 3.2). The paper
+    /// gives none between them.
     #[must_use]
     pub const fn paper() -> Self {
         Self {
@@ -47,7 +47,7 @@ impl NearLimits {
         }
     }
 
-    /// Returns the range below which a sensor says that something is near, m.
+    /// Returns the range below which a sensor reports something as near, m.
     #[must_use]
     pub fn threshold(&self, sounding: &Sounding) -> f64 {
         /// Angle above which a sensor looks back, rad. One that looks straight to the side belongs

@@ -5,7 +5,7 @@ use super::{LegEnd, LegStep};
 /// The lowest layer: the leg ends where the body touches something.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct StopAtBump {
-    /// Whether this leg has made a step. What was touched before the leg does not matter.
+    /// Whether this leg has made a step. Touches before the leg do not count.
     has_moved: bool,
 }
 
@@ -15,7 +15,7 @@ impl StopAtBump {
         self.has_moved = false;
     }
 
-    /// Corrects what the layers above propose for this time step.
+    /// Corrects the proposal of the layers above for this time step.
     pub fn correct(&mut self, proposal: LegStep, sensing: &impl Bumps) -> LegStep {
         let bumped = self.has_moved && sensing.bump() == Some(true);
         self.has_moved = true;

@@ -2,7 +2,7 @@ use tolman_robot::Soundings;
 
 use super::{LegEnd, LegStep, NearLimits, RunningMean};
 
-/// The layer that stops before what is near: "near collision" is where the running mean of a sensor
+/// The layer that stops before near things: "near collision" is where the running mean of a sensor
 /// falls below its threshold (section 3.2).
 #[derive(Clone, Debug)]
 pub struct StopNear {
@@ -13,7 +13,7 @@ pub struct StopNear {
 }
 
 impl StopNear {
-    /// Returns a layer that has heard nothing yet.
+    /// Returns a layer without readings.
     #[must_use]
     pub fn new(limits: NearLimits) -> Self {
         Self {
@@ -50,7 +50,7 @@ impl StopNear {
         })
     }
 
-    /// Corrects what the layer above proposes for this time step.
+    /// Corrects the proposal of the layer above for this time step.
     pub fn correct(&mut self, proposal: LegStep, sensing: &impl Soundings) -> LegStep {
         self.take_in(sensing);
         if self.is_clear(1.0) {

@@ -52,7 +52,7 @@ impl UntilNearConfig {
     }
 }
 
-/// Drives a robot straight on until something is near, and turns it to where the way is clear.
+/// Drives a robot straight on until something is near, and turns it until the way is clear.
 #[derive(Clone, Debug)]
 pub struct UntilNear {
     config: UntilNearConfig,
@@ -60,7 +60,7 @@ pub struct UntilNear {
     bump: StopAtBump,
 }
 
-/// End of a turn.
+/// Way in which a turn ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TurnEnd {
     /// The way ahead is clear.
@@ -84,7 +84,7 @@ pub enum TurnByEnd {
 const MOST_REVERSALS: u32 = 4;
 
 impl UntilNear {
-    /// Returns a driver that has heard nothing yet.
+    /// Returns a driver without readings.
     #[must_use]
     pub fn new(config: UntilNearConfig) -> Self {
         Self {
@@ -99,8 +99,8 @@ impl UntilNear {
         self.near.give_way(share);
     }
 
-    /// Lets things come as near ahead as `share` of the limit, 0 … 1, from now on; those beside
-    /// keep theirs.
+    /// Sets the limit ahead to `share` of its full value, 0 … 1, from now on. The limits beside
+    /// stay the same.
     pub fn limit_ahead(&mut self, share: f64) {
         let limits = self.config.limits;
         self.near.limit(NearLimits {
@@ -130,7 +130,7 @@ impl UntilNear {
         Ok(LegEnd::TooLong)
     }
 
-    /// Returns what the layers make of this time step.
+    /// Returns the layers' decision for this time step.
     fn propose(&mut self, sensing: &(impl Soundings + Bumps)) -> LegStep {
         let translate = self.config.translate;
         let ahead = GoAhead { translate }.propose();
@@ -188,9 +188,8 @@ impl UntilNear {
         creep(robot, back, steps, |sensing| self.near.take_in(sensing))
     }
 
-    /// Turns in place by `angle`, rad, counter-clockwise, and no farther, as well as the wheels
-    /// tell, whatever is near. Where the body touches something it [goes free](Self::go_free) of
-    /// that instead.
+    /// Turns in place by `angle`, rad, counter-clockwise, and no farther, by odometry, whatever is
+    /// near. Where the body touches something it [goes free](Self::go_free) of that instead.
     ///
     /// # Errors
     /// If the robot fails.
@@ -348,7 +347,7 @@ mod tests {
         }
     }
 
-    /// In a chest it turns once round, and drives when it gives way.
+    /// In a chest the robot turns round once. After it gives way, it drives.
     #[test]
     fn it_finds_no_way_out_of_a_chest() {
         let start = Pose::new(Point::new(0.6, 0.6), Heading::EAST);

@@ -1,4 +1,4 @@
-//! Chooses what is open on a page, and what is folded until a reader opens it.
+//! Chooses the parts of a page that are open, and those that are folded until a reader opens them.
 //!
 //! The open part takes at most six desktop screens. The main tables come first, each with its first
 //! metrics and figures. The rest is one click away. Heights are estimates on the safe side, because
@@ -106,7 +106,7 @@ impl Folds {
         shown
     }
 
-    /// Returns how many of these figures are open, and subtracts their height.
+    /// Returns the number of these figures that are shown open, and subtracts their height.
     pub(super) fn of_figures(&mut self, figures: &[&Figure]) -> usize {
         let (count, height) = first_line(figures);
         if count > 0 && height <= self.left {

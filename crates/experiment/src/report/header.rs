@@ -1,4 +1,4 @@
-//! The head of the page: what was run, with what, and the result at a glance.
+//! Writes the head of the page: the runs, their settings, and the result at a glance.
 
 use maud::{Markup, html};
 
@@ -94,7 +94,7 @@ fn others(told: &VerdictTally) -> String {
     format!("of the paper's values; {better}{differs} differ, {cannot_tell} cannot tell")
 }
 
-/// Returns how many of these are true, and how many there are.
+/// Returns the number of true values, and the number of all.
 fn tally(these: impl Iterator<Item = bool>) -> (usize, usize) {
     these.fold((0, 0), |(hold, all), holds| {
         (hold + usize::from(holds), all + 1)

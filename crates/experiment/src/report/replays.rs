@@ -1,4 +1,4 @@
-//! The page's replays, the player, and what replaces the replays of other runs.
+//! Embeds the page's replays and the player, and replaces the replays of other runs.
 
 use maud::{Markup, PreEscaped, html};
 use serde_json::{Value, json};
@@ -30,8 +30,8 @@ pub(super) fn dialog(outcome: &ExperimentOutcome) -> Markup {
     }
 }
 
-/// Returns a sentence that says which replays the page carries, and why not all; empty if no run is
-/// recorded.
+/// Returns a sentence that names the replays in the page, and the reason for missing ones; empty if
+/// no run is recorded.
 pub(super) fn carried(outcome: &ExperimentOutcome) -> String {
     let replays = &outcome.replays;
     let megabytes = replays.budget as f64 / 1e6;

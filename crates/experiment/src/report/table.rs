@@ -264,7 +264,7 @@ fn verdict(metric: &Metric, verdict: Option<&Verdict>) -> Markup {
     }
 }
 
-/// Returns which values are within the tolerance, or why the value cannot be judged.
+/// Returns the tolerated range of a metric's values, and the reason if the value cannot be judged.
 fn told(metric: &Metric, verdict: &Verdict) -> String {
     let decimals = metric.places();
     let within = verdict.accepted.map(|accepted| {

@@ -5,7 +5,7 @@ use tolman_robot::Ring;
 
 use crate::fields::Fields;
 
-/// Range from which a beam has hit nothing, m.
+/// Range above which a beam has hit nothing, m.
 pub(super) const NOTHING_HIT: f64 = 80.0;
 
 /// Parameters of the front laser, from PARAM lines.
@@ -18,7 +18,7 @@ pub(crate) struct Parameters {
 }
 
 impl Parameters {
-    /// Takes in a line of that kind; those of other things tell nothing.
+    /// Takes in a parameter line. Lines about other parameters are ignored.
     pub(crate) fn take(&mut self, fields: &mut Fields<'_>) {
         let (Ok(name), Ok(value)) = (fields.word("name"), fields.number("value")) else {
             return;

@@ -17,7 +17,7 @@ pub enum G2oFaultKind {
     /// The line's first word is not one that the reader knows.
     #[error("`{word}` is not read; only VERTEX_SE2, EDGE_SE2 and FIX are")]
     Unknown {
-        /// The word.
+        /// First word of the line.
         word: String,
     },
     /// The line has too few numbers, or too many.

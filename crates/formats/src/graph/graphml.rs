@@ -10,7 +10,7 @@ const HEAD: &str = "\
   <graph id=\"places\" edgedefault=\"directed\">
 ";
 
-/// Returns a map of places as GraphML, with `x` and `y`, m, of each place that knows where it lies.
+/// Returns a map of places as GraphML, with `x` and `y`, m, of each place with a known position.
 ///
 /// Source: <http://graphml.graphdrawing.org>.
 #[must_use]

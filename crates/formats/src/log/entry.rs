@@ -1,7 +1,7 @@
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_robot::{Scan, TimedPose, Trajectory};
 
-/// One thing that a robot noted.
+/// One entry of a robot's log.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LogEntry {
     /// Pose by its wheels.
@@ -90,7 +90,7 @@ pub(crate) struct ReadScan {
 }
 
 impl ReadScan {
-    /// Returns the scan with its ranges, m; ranges that are too long have hit nothing.
+    /// Returns the scan with its ranges, m. Ranges beyond the maximum have hit nothing.
     pub(crate) fn of(mut scan: LogScan, ranges: &[Option<f64>]) -> Self {
         let most = scan.scan.ring.max_range;
         let length = |range: &Option<f64>| range.map_or(most, |range| range.min(most));

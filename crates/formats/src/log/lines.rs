@@ -21,7 +21,7 @@ pub(crate) enum Line<'a> {
     Text(&'a str),
     /// Bytes that are not UTF-8 text.
     NoText,
-    /// The line goes on for more than a megabyte.
+    /// The line is longer than a megabyte.
     TooLong,
     /// The rest of the file cannot be read.
     Lost(io::ErrorKind),

@@ -59,7 +59,7 @@ impl<R: BufRead> LogReader<R> {
         &self.report
     }
 
-    /// Returns the entry of one line, if it has one.
+    /// Returns the entry of one line, or `None` if it has none.
     fn entry(
         parameters: &mut Parameters,
         report: &mut LogReport,

@@ -24,8 +24,8 @@ pub(crate) fn read_records<T>(
     }
 }
 
-/// Reads from `source`; a line that `parse` does not understand is left out and reported. Empty
-/// lines and comments say nothing.
+/// Reads from `source`. A line that `parse` does not understand is left out and reported. Empty
+/// lines and comments are ignored.
 pub(crate) fn records<T>(
     source: impl BufRead,
     parse: impl Fn(&mut Fields<'_>) -> Result<T, Wrong>,

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::LogError;
 
-/// Report on reading a log: its contents, what was left out, and where.
+/// Report on reading a log: its contents, and the parts that were left out.
 ///
 /// ```
 /// use tolman_formats::{LogReader, LogTrouble};
@@ -83,7 +83,7 @@ pub enum LogTrouble {
     TooManyFields,
 }
 
-/// Kinds of lines that are told apart.
+/// Maximum number of kinds of lines that are distinguished.
 const MOST_KINDS: usize = 50;
 /// Number of lines that are named of each trouble.
 const NAMED: usize = 5;
@@ -117,8 +117,8 @@ impl LogReport {
         }
     }
 
-    /// Returns the error of a file without usable contents: what was expected, and the first
-    /// trouble.
+    /// Returns the error of a file without usable contents: the expected contents, and the first
+    /// fault.
     pub(crate) fn nothing(&self, path: &Path, what: &str) -> LogError {
         let first = self.troubles.iter().next();
         let first = first.map_or_else(String::new, |(trouble, met)| format!("; {trouble}: {met}"));
@@ -134,8 +134,8 @@ impl LogReport {
         self.troubles.get(&trouble).map_or(0, |known| known.count)
     }
 
-    /// Returns the report for readers, one sentence per line: what the log has, what was left out
-    /// and why. O(kinds).
+    /// Returns the report for readers, one sentence per line: the log's contents, and what was left
+    /// out with the reasons. O(kinds).
     #[must_use]
     pub fn sentences(&self) -> Vec<String> {
         let Self {

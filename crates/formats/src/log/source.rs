@@ -17,7 +17,7 @@ pub enum LogError {
         /// The system's error.
         source: io::Error,
     },
-    /// Nothing in it can be used.
+    /// The file has no usable contents.
     #[error("{}: {what}", path.display())]
     Nothing {
         /// Path of the file.

@@ -45,7 +45,7 @@ pub enum GreyMapError {
     TooBright {
         /// Position in the file, in bytes.
         byte: usize,
-        /// The value.
+        /// Value that is too bright.
         value: u64,
         /// Maximum value, that of white.
         most: u16,
@@ -122,7 +122,8 @@ impl Reader<'_> {
         self.bytes.get(self.at..).unwrap_or_default()
     }
 
-    /// Returns the next number, if there is one; one too large to hold is the largest.
+    /// Returns the next number, or `None` if there is none. A number too large to hold becomes the
+    /// largest.
     fn number(&mut self) -> Option<u64> {
         self.skip_blanks();
         let digits = self.rest().iter().take_while(|byte| byte.is_ascii_digit());
@@ -154,8 +155,8 @@ impl Reader<'_> {
             })
     }
 
-    /// Returns the values as words. A value takes two bytes or more, so that no header asks for
-    /// more memory than its file.
+    /// Returns the values, which are written as text. A value takes two bytes or more, so that no
+    /// header requests more memory than its file.
     fn plain(&mut self, wanted: usize, most: u16) -> Result<Vec<u16>, GreyMapError> {
         let mut values = Vec::new();
         while values.len() < wanted {
@@ -169,7 +170,7 @@ impl Reader<'_> {
         Ok(values)
     }
 
-    /// Returns what is wrong where a value should be.
+    /// Returns the error for a byte that should begin a value.
     fn ended(&self, byte: usize, found: usize, wanted: usize) -> GreyMapError {
         if byte == self.bytes.len() {
             return GreyMapError::TooShort {

@@ -6,7 +6,7 @@ use super::MapCell;
 /// Contents of a map's YAML file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RosMapHeader {
-    /// The name of the picture's file, beside this one if it does not begin at the root.
+    /// Path of the picture's file, relative to this file's folder unless it is absolute.
     pub image: String,
     /// Size of a cell, m.
     pub resolution: f64,
@@ -35,15 +35,15 @@ pub enum RosMapHeaderError {
     Twice {
         /// Number of the line.
         line: usize,
-        /// The key.
+        /// Name of the key.
         key: String,
     },
-    /// A value cannot be one.
+    /// A value is invalid.
     #[error("line {line}: `{key}` is `{value}`; expected {expected}")]
     Value {
         /// Number of the line.
         line: usize,
-        /// The key.
+        /// Name of the key.
         key: &'static str,
         /// Value found.
         value: String,
@@ -63,7 +63,7 @@ pub enum RosMapHeaderError {
     /// A key is missing.
     #[error("the key `{key}` is missing; add it as map_server writes it")]
     Missing {
-        /// The key.
+        /// Name of the key.
         key: &'static str,
     },
 }

@@ -120,7 +120,7 @@ impl Transform {
     }
 }
 
-/// Returns what of a pose lies on the floor.
+/// Returns the pose on the floor below a pose in space.
 fn pose([x, y, _]: [f64; 3], orientation: [f64; 4]) -> Pose {
     Pose::new(Point::new(x, y), quaternion::heading(orientation))
 }

@@ -26,7 +26,7 @@ impl Mounts {
         }
     }
 
-    /// Returns where `part` sits on `base`, if that is known.
+    /// Returns the pose of `part` on `base`, or `None` if no chain of transforms joins them.
     pub(super) fn of(&self, base: &str, part: &str) -> Option<Pose> {
         let (mut pose, mut part) = (Pose::IDENTITY, part);
         for _ in 0..MOST {

@@ -18,7 +18,7 @@ use crate::log::{self, LogError, LogReport};
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadRelations {
-    /// The relations.
+    /// Relations that could be read, in the order of the file.
     pub relations: Vec<PoseRelation>,
     /// Report on reading them.
     pub report: LogReport,

@@ -46,7 +46,7 @@ pub fn tum(trajectory: &Trajectory) -> String {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadTrajectory {
-    /// The trajectory.
+    /// Poses that could be read, in order of time.
     pub trajectory: Trajectory,
     /// Report on reading it.
     pub report: LogReport,

@@ -25,7 +25,7 @@ pub enum IntervalError {
     /// A margin is negative.
     #[error("the margin is {margin}; give 0 or more")]
     NegativeMargin {
-        /// The margin.
+        /// Margin that was given.
         margin: f64,
     },
 }

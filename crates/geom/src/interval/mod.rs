@@ -92,7 +92,7 @@ impl Interval {
         Self::from_bounds(value, value)
     }
 
-    /// Returns its lower and its upper half.
+    /// Returns its lower and upper halves.
     pub(crate) fn halves(self) -> (Self, Self) {
         let middle = self.middle();
         (
@@ -101,13 +101,13 @@ impl Interval {
         )
     }
 
-    /// Returns the least it may be.
+    /// Returns the least value that the number may have.
     #[must_use]
     pub const fn low(self) -> f64 {
         self.low
     }
 
-    /// Returns the most it may be.
+    /// Returns the greatest value that the number may have.
     #[must_use]
     pub const fn high(self) -> f64 {
         self.high
@@ -132,7 +132,7 @@ impl Interval {
         }
     }
 
-    /// Returns whether both bounds are there.
+    /// Returns whether both bounds are finite.
     #[must_use]
     pub const fn is_bounded(self) -> bool {
         self.low.is_finite() && self.high.is_finite()

@@ -56,7 +56,7 @@ pub(super) fn quotient_down(a: f64, b: f64) -> f64 {
     }
 }
 
-/// Returns the neighbour below a rounded result; but what is positive has not less than 0 below it.
+/// Returns the next lower neighbour of a rounded result, but at least 0 for a positive one.
 fn below(rounded: f64, positive: bool) -> f64 {
     if positive {
         rounded.next_down().max(0.0)

@@ -1,4 +1,4 @@
-//! The audit, from a graph to its verdicts.
+//! Audits a graph: from its odometry and closures to the verdicts.
 
 use alloc::vec::Vec;
 
@@ -116,7 +116,7 @@ pub fn errors_of_witnesses(
     Ok(refuted.collect())
 }
 
-/// Gives the verdict on each closure, once it is settled which are believed.
+/// Gives the verdict on each closure, once the set of believed closures is settled.
 struct Judge<'a, 'b> {
     belief: Belief<'a>,
     pairs: &'b Pairs,
@@ -166,8 +166,8 @@ impl Judge<'_, '_> {
         AuditCycle::of(self.link(link), way, self.belief.links, self.board).ok()
     }
 
-    /// Returns the cycles that agree with a closure and share no run: the surest, then those over
-    /// one other closure, then odometry alone.
+    /// Returns the cycles that agree with a closure and share no run. The surest comes first, then
+    /// those over one other closure, then odometry alone.
     fn witnesses(&self, link: u32, way: &Way) -> Option<Vec<AuditCycle>> {
         let links = self.belief.links;
         let mut runs: Vec<u32> = alloc::vec![self.link(link).run];
@@ -251,7 +251,7 @@ impl Judge<'_, '_> {
         }
     }
 
-    /// Returns the covariance as seen from the higher pose, where it lies by odometry.
+    /// Returns the covariance at a pose by odometry, as seen from the higher pose.
     fn at_second(&self, link: &Link, gap: &Gap) -> Spread {
         let second = &self.belief.chain.reckoned[link.second as usize];
         gap.spread.seen_from(&second.inverse())

@@ -1,4 +1,4 @@
-//! The closures that are believed: the greatest set in which each has a witness among the others.
+//! Finds the believed closures: the greatest set in which each has a witness among the others.
 
 use alloc::vec::Vec;
 
@@ -15,7 +15,7 @@ const MOST_ROUNDS: u32 = 6;
 /// Maximum number of a group's members that are compared with what is believed before it.
 const PROBED: usize = 40;
 
-/// The audit while it goes on.
+/// State of an audit in progress.
 pub(super) struct Belief<'a> {
     pub(super) links: &'a [Link],
     pub(super) chain: &'a Chain,
@@ -23,9 +23,9 @@ pub(super) struct Belief<'a> {
     pub(super) by_odometry: &'a [ByOdometry],
     pub(super) search: Search,
     pub(super) believed: Vec<bool>,
-    /// The surest way of each closure at the last search, and the closure's gap from it.
+    /// Surest way of each closure at the last search, and the closure's gap from it.
     pub(super) found: Vec<Option<(Way, Gap)>>,
-    /// For each closure, the closures whose ways lead over it, or did so.
+    /// For each closure, the closures whose ways lead or led over it.
     users: Vec<Vec<u32>>,
 }
 
@@ -122,7 +122,7 @@ impl<'a> Belief<'a> {
         })
     }
 
-    /// Returns whether nothing speaks against a closure that is not believed.
+    /// Returns whether no evidence contradicts a closure that is not believed.
     fn is_candidate(&self, link: usize) -> bool {
         let found = self.found[link].as_ref();
         let refuted = found.is_some_and(|(_, gap)| gap.refutes(self.config));
@@ -147,7 +147,7 @@ impl<'a> Belief<'a> {
         }
     }
 
-    /// Returns whether a group is of more than one run.
+    /// Returns whether a group consists of more than one run.
     fn is_broad(&self, group: &[u32]) -> bool {
         let run = |link: &u32| self.links[*link as usize].run;
         group.iter().any(|link| run(link) != run(&group[0]))
@@ -172,8 +172,8 @@ impl<'a> Belief<'a> {
         10 * against <= 3 * (for_it + against)
     }
 
-    /// Believes and drops until each closure that is believed has a witness in the others, and no
-    /// other has one.
+    /// Believes and drops closures until exactly those are believed that have a witness among the
+    /// others.
     fn come_to_rest(&mut self) {
         for _ in 0..MOST_ROUNDS {
             let all = self.open(true);
@@ -186,7 +186,7 @@ impl<'a> Belief<'a> {
         self.drop_unwitnessed(all);
     }
 
-    /// Looks again for the ways of closures that lead over what is believed no more.
+    /// Searches again for ways that led over closures no longer believed.
     fn refresh(&mut self) {
         for link in self.open(false) {
             let way = self.found[link as usize].as_ref();
@@ -198,7 +198,7 @@ impl<'a> Belief<'a> {
         }
     }
 
-    /// Returns the closures that are believed, or are not, though odometry does not refute them.
+    /// Returns the closures that odometry does not refute and that are believed, or are not.
     fn open(&self, believed: bool) -> Vec<u32> {
         let of = |link: &u32| {
             let link = *link as usize;
@@ -230,7 +230,7 @@ impl<'a> Belief<'a> {
         }
     }
 
-    /// Believes all that have a witness now, and returns whether there was one.
+    /// Believes all closures that have a witness now, and returns whether there was one.
     fn grow(&mut self) -> bool {
         let mut grew = false;
         for link in self.open(false) {

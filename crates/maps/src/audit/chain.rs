@@ -1,4 +1,4 @@
-//! The odometry, summed up so that any span of it costs O(1).
+//! Sums up the odometry so that any span of it costs O(1).
 
 use alloc::vec::Vec;
 
@@ -8,11 +8,11 @@ use super::motion::{Motion, Spread};
 use super::{AuditConfig, AuditError};
 use crate::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph};
 
-/// The poses as odometry alone has them, with the sums of its covariances.
+/// Poses by odometry alone, with the sums of its covariances.
 pub(super) struct Chain {
-    /// Pose of each by odometry, relative to the first of its piece.
+    /// Pose by odometry, relative to the first pose of its piece.
     pub(super) reckoned: Vec<Motion>,
-    /// The summed covariance of all steps up to each pose, seen from the first of its piece.
+    /// Summed covariance of all steps up to each pose, seen from the first pose of its piece.
     summed: Vec<Spread>,
     /// The summed cost of all steps up to each pose.
     cost: Vec<f64>,

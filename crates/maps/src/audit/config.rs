@@ -11,10 +11,10 @@ pub struct AuditConfig {
     /// Maximum error of a cycle, k, in standard deviations (default 5; with Gaussian errors 2 in
     /// 100,000 right cycles exceed it).
     pub bound: f64,
-    /// Maximum share of all poses near by that the region of k standard deviations of a tight cycle
+    /// Maximum share of all nearby poses that the region of k standard deviations of a tight cycle
     /// fills (default 0.003).
     pub tight_share: f64,
-    /// Radius of the region of poses near by, m (default 5); their headings are any.
+    /// Radius of the region of nearby poses, m (default 5), at any heading.
     pub near: f64,
     /// Maximum distance of two closures of one run, at both ends, poses (default 3).
     pub run_gap: u32,
@@ -28,7 +28,7 @@ pub struct AuditConfig {
 }
 
 impl AuditConfig {
-    /// Returns the definitions that all figures of this project are made with.
+    /// Returns the values that all figures of this project use.
     #[must_use]
     pub const fn standard() -> Self {
         Self {

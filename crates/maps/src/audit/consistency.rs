@@ -1,4 +1,4 @@
-//! Closures compared in pairs, and the greatest consistent groups of them.
+//! Compares closures in pairs and finds the greatest consistent groups of them.
 //!
 //! Source: the idea of pairwise consistency is that of J. Mangelson et al.: Pairwise Consistent
 //! Measurement Set Maximization for Robust Multi-robot Map Merging, 2018. Deviation: the set is
@@ -16,7 +16,7 @@ use super::link::Link;
 /// Verdict of odometry alone on a closure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ByOdometry {
-    /// Nothing: it does not join its poses, or within a region too wide.
+    /// Odometry does not join the closure's poses, or its bounds are too wide.
     Silent,
     /// The closure agrees, and is tight.
     Supports,
@@ -36,14 +36,14 @@ impl ByOdometry {
 
 /// Pairs of closures that agree or conflict.
 pub(super) struct Pairs {
-    /// Those within whose bounds each closure lies, tightly.
+    /// Closures within whose bounds each closure lies, tightly.
     pub(super) agreeing: Vec<Vec<u32>>,
-    /// Those beyond whose bounds it lies.
+    /// Closures beyond whose bounds each closure lies.
     conflicting: Vec<Vec<u32>>,
 }
 
 impl Pairs {
-    /// Holds all closures that odometry does not refute against those that begin and end near them.
+    /// Compares each closure that odometry does not refute with those that begin and end near it.
     /// O(pairs).
     pub(super) fn of(
         links: &[Link],

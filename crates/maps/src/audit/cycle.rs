@@ -1,4 +1,4 @@
-//! Cycles, measured edge by edge: the contents of a certificate.
+//! Measures cycles edge by edge: the contents of a certificate.
 
 use alloc::vec::Vec;
 
@@ -15,12 +15,12 @@ use crate::pose_graph::{PoseEdgeKind, PoseGraph};
 /// A cycle that begins with the closure in question, and its error.
 ///
 /// Its product is that of the measurements along it, each inverted where it is walked against its
-/// direction. Were they exact, it would be the identity.
+/// direction. For exact measurements it is the identity.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct AuditCycle {
-    /// The parts of the cycle, each beginning where the one before ends, the last ending where the
-    /// first begins.
+    /// Parts of the cycle. Each begins where the one before ends, and the last ends where the first
+    /// begins.
     pub steps: Vec<CycleStep>,
     /// The logarithm of the product: x, y, m, heading, rad.
     pub residual: [f64; 3],
@@ -38,8 +38,8 @@ pub struct CycleStep {
     pub from: u32,
     /// Pose to which the step leads.
     pub to: u32,
-    /// The closure it leads over, by its edge; `None` if it leads along the odometry, by as many
-    /// poses as there are between.
+    /// Edge of the closure that the step leads over. `None` if it leads along the odometry, from
+    /// pose to pose.
     #[cfg_attr(
         feature = "serde",
         serde(default, skip_serializing_if = "Option::is_none")
@@ -70,15 +70,15 @@ pub enum CycleError {
     NoClosure {
         /// Number of the step, from 0.
         step: usize,
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
     },
-    /// A step leads along odometry that is not there.
+    /// A step leads along odometry that does not exist.
     #[error("step {step} needs odometry to pose {pose}, which does not exist")]
     NoOdometry {
         /// Number of the step, from 0.
         step: usize,
-        /// The pose.
+        /// Number of the pose.
         pose: u32,
     },
     /// A step leads nowhere.
@@ -162,7 +162,7 @@ impl AuditCycle {
         })
     }
 
-    /// Returns the closures that it leads over beside the first, by their edges.
+    /// Returns the closures after the first that the cycle leads over, by their edges.
     pub fn closures(&self) -> impl Iterator<Item = u32> {
         self.steps.iter().skip(1).filter_map(|step| step.over)
     }
@@ -182,7 +182,7 @@ impl AuditCycle {
         }
     }
 
-    /// Returns the error of the cycle, χ², if its first closure were exact, with `truth` the true
+    /// Returns the error of the cycle, χ², as if its first closure were exact. `truth` is the true
     /// displacement of its poses.
     pub(super) fn chi2_of_witnesses(
         &self,
@@ -198,7 +198,7 @@ impl AuditCycle {
     }
 }
 
-/// A graph that cycles are measured in.
+/// Measured edges, from which cycles are composed.
 pub(super) struct Board<'a> {
     pub(super) graph: &'a PoseGraph,
     pub(super) chain: &'a Chain,
@@ -206,7 +206,7 @@ pub(super) struct Board<'a> {
     measured: Vec<(Motion, Spread)>,
 }
 
-/// A product of measurements and its covariance, seen from where it has come to.
+/// Product of measurements and its covariance, seen from the present pose.
 struct Walk {
     motion: Motion,
     spread: Spread,

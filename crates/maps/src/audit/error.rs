@@ -20,7 +20,7 @@ pub enum AuditError {
     /// The scale of the standard deviations is invalid.
     #[error("the sigma scale is {scale}; give a positive number")]
     Scale {
-        /// The scale.
+        /// Scale that was given.
         scale: f64,
     },
 }

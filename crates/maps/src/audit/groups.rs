@@ -1,4 +1,4 @@
-//! Things that belong together.
+//! Groups things that belong together.
 
 use alloc::vec::Vec;
 
@@ -24,7 +24,7 @@ impl Groups {
         self.0[a.max(b)] = a.min(b);
     }
 
-    /// Returns the group of each thing, numbered in the order of their first.
+    /// Returns the group of each thing. Groups are numbered in the order of their first thing.
     pub(super) fn numbers(&mut self) -> Vec<u32> {
         let mut number_of = alloc::vec![None; self.0.len()];
         let mut next = 0;

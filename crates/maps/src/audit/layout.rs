@@ -1,4 +1,4 @@
-//! Positions of the poses by the supported closures.
+//! Places the poses by the supported closures.
 
 use alloc::collections::BinaryHeap;
 use alloc::vec::Vec;
@@ -14,9 +14,9 @@ use crate::pose_graph::{OptimizerConfig, PoseEdgeKind, PoseGraph};
 const STEPS: u32 = 10;
 const ITERATIONS: usize = 200;
 
-/// Returns the graph with odometry and supported closures alone, its poses where these have them:
-/// along the surest way from the first, and then optimized. Poses that nothing joins with the first
-/// stay where they are.
+/// Returns the graph with odometry and supported closures alone, and its poses placed by them.
+/// Poses are first placed along the surest way from the first, then optimized. Poses that nothing
+/// joins with the first stay as they are.
 ///
 /// # Complexity
 /// O(edges · log poses), and 2000 times O(edges) at most to optimize.

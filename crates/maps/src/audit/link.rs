@@ -1,4 +1,4 @@
-//! The closures, ready to be compared.
+//! Prepares the closures for comparison.
 
 use alloc::vec::Vec;
 
@@ -24,7 +24,7 @@ pub(super) struct Link {
     pub(super) run: u32,
 }
 
-/// Error of a cycle.
+/// Returns whether the gap is within its bound.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gap {
     pub(super) chi2: f64,
@@ -44,7 +44,7 @@ impl Gap {
         self.chi2 <= config.most_chi2()
     }
 
-    /// Returns whether it is beyond its bound, and by more than rounding.
+    /// Returns whether its region excludes most nearby poses.
     pub(super) fn refutes(&self, config: &AuditConfig) -> bool {
         self.chi2 > config.most_chi2() * (1.0 + 1e-6)
     }

@@ -1,4 +1,4 @@
-//! Rigid motions with their rotation at hand, and covariances that are moved along.
+//! Computes rigid motions that store their rotation, and transforms covariances.
 
 use tolman_geom::Pose;
 use tolman_geom::nalgebra::{Matrix3, Vector3};
@@ -39,7 +39,7 @@ impl Motion {
         }
     }
 
-    /// Returns the logarithm: the twist that leads there in one second.
+    /// Returns the logarithm: the twist that leads to this pose in one second.
     pub(super) fn log(&self) -> Vector3<f64> {
         let angle = libm::atan2(self.sin, self.cos);
         let half = 0.5 * angle;
@@ -124,8 +124,8 @@ impl Spread {
         }
     }
 
-    /// Returns Ad C Adᵀ: the covariance of an error in the frame that `by` carries, as seen from
-    /// the frame it is given in.
+    /// Returns Ad C Adᵀ: the covariance of an error given in the frame that `by` carries, as seen
+    /// from the outer frame.
     pub(super) fn seen_from(&self, by: &Motion) -> Self {
         let (cos, sin) = (by.cos, by.sin);
         // The adjoint is [R w; 0 1] with w = (y, −x).
@@ -144,7 +144,7 @@ impl Spread {
         }
     }
 
-    /// Returns what is left of the spread of x and y where the heading is known: (xx, xy, yy).
+    /// Returns the covariance of x and y given the heading: (xx, xy, yy), m².
     fn without_heading(&self) -> (f64, f64, f64) {
         let (across, up) = (self.xt / self.tt, self.yt / self.tt);
         (
@@ -159,7 +159,7 @@ impl Spread {
         self.tt * (xx * yy - xy * xy)
     }
 
-    /// Returns rᵀ C⁻¹ r. The heading is eliminated first, which takes long levers out of the rest.
+    /// Returns rᵀ C⁻¹ r. The heading is eliminated first, so that long levers cancel.
     pub(super) fn chi2(&self, off: &Vector3<f64>) -> f64 {
         let (xx, xy, yy) = self.without_heading();
         let turn = off.z / self.tt;
@@ -168,7 +168,7 @@ impl Spread {
         off.z * turn + (yy * x * x - 2.0 * xy * x * y + xx * y * y) / det
     }
 
-    /// Returns the standard deviation of x and y where it is greatest.
+    /// Returns the greatest standard deviation of x and y over all directions.
     pub(super) fn widest(&self) -> f64 {
         let (middle, half) = (0.5 * (self.xx + self.yy), 0.5 * (self.xx - self.yy));
         libm::sqrt(middle + libm::hypot(half, self.xy))

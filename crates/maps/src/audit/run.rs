@@ -1,5 +1,5 @@
-//! Runs: closures that come from one drive along a stretch driven before. They err together, so
-//! they are one witness.
+//! Finds runs: closures that come from one drive along a stretch driven before. They err together,
+//! so they are one witness.
 
 use alloc::vec::Vec;
 
@@ -7,7 +7,7 @@ use super::groups::Groups;
 
 /// Returns the run of each closure, given its lower and its higher pose, sorted. Two closures are
 /// of one run if their lower poses lie at most `gap` apart, and their higher poses too. They are
-/// also of one run if other closures link them like that. Two that contradict each other by `agree`
+/// also of one run if other closures link them like that. Two closures for which `agree` is false
 /// do not err together, so they do not link a run.
 ///
 /// # Complexity

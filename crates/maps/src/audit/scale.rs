@@ -7,14 +7,14 @@ use super::link::links;
 use super::{AuditConfig, AuditError};
 use crate::pose_graph::PoseGraph;
 
-/// Maximum distance, in poses, of the ends of two closures whose cycle is measured.
+/// Maximum distance between the ends of two closures whose cycle is measured, poses.
 const APART: u32 = 10;
 
-/// The median and the 99th percentile of χ² with 3 degrees of freedom.
+/// Median of χ² with 3 degrees of freedom.
 const MEDIAN: f64 = 2.366;
 const TAIL: f64 = 11.345;
 
-/// Ratio of the tail to a Gaussian's from which the scale is not shrunk.
+/// Ratio of the tail to a Gaussian's above which the scale is not shrunk.
 const HEAVY: f64 = 2.0;
 
 /// Minimum number of cycles for a scale.
@@ -27,7 +27,7 @@ pub struct SigmaScale {
     pub estimate: f64,
     /// The 99th percentile of χ² over its median; a Gaussian's is 4.8.
     pub tail: f64,
-    /// Number of cycles that it is computed from.
+    /// Number of cycles from which it is computed.
     pub cycles: usize,
 }
 
@@ -36,7 +36,7 @@ impl SigmaScale {
     /// if there are fewer than 20.
     ///
     /// # Errors
-    /// [`AuditError`] as [`audit`](super::audit()) has it.
+    /// [`AuditError`] as [`audit`](super::audit()).
     ///
     /// # Complexity
     /// O(closures · m · log) where m closures begin within 10 poses.

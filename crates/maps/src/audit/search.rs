@@ -1,4 +1,5 @@
-//! The surest way between two poses: Dijkstra's search over the poses at which closures end.
+//! Searches the surest way between two poses: Dijkstra's algorithm over the poses at which closures
+//! end.
 
 use alloc::collections::BinaryHeap;
 use alloc::vec::Vec;
@@ -10,7 +11,7 @@ use super::way::{Leg, Way};
 
 /// Working memory of searches, kept between them so that it need not be cleared.
 pub(super) struct Search {
-    /// The poses at which closures end, in order.
+    /// Poses at which closures end, in order.
     stations: Vec<u32>,
     /// The stations of the lower and the higher pose of each closure.
     ends: Vec<[u32; 2]>,
@@ -30,7 +31,7 @@ pub(super) struct Search {
 struct Reached {
     round: u32,
     before: u32,
-    /// The closure it was reached over, `SPAN` for none.
+    /// Closure over which it was reached, `SPAN` for none.
     over: u32,
     cost: f64,
 }
@@ -38,7 +39,7 @@ struct Reached {
 const SPAN: u32 = u32::MAX;
 
 impl Search {
-    /// Prepares searches over the closures that `is_open`.
+    /// Prepares searches over the closures for which `is_open` is true.
     pub(super) fn new(links: &[Link], is_open: &[bool], chain: &Chain) -> Self {
         let open = links.iter().zip(is_open).filter(|(_, is_open)| **is_open);
         let mut stations: Vec<u32> = open
@@ -159,7 +160,7 @@ impl Search {
     }
 }
 
-/// Returns the open closures of each station, and where those of each begin.
+/// Returns the open closures of each station, and the index at which those of each begin.
 fn closures_at(stations: usize, ends: &[[u32; 2]], is_open: &[bool]) -> (Vec<u32>, Vec<u32>) {
     let open = || (0_u32..).zip(ends).zip(is_open).filter(|(_, open)| **open);
     let mut first_at = alloc::vec![0_u32; stations + 1];

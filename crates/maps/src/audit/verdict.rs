@@ -5,7 +5,7 @@ use super::AuditCycle;
 /// Result of auditing the closures of a graph.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Audit {
-    /// One for each closure, in the order of the graph's edges.
+    /// Result for each closure, in the order of the graph's edges.
     pub closures: Vec<AuditedClosure>,
     /// Number of runs that the closures form: the maximum number of witnesses.
     pub runs: u32,
@@ -14,7 +14,7 @@ pub struct Audit {
 /// Result for one closure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AuditedClosure {
-    /// The edge of the graph.
+    /// Number of the closure's edge in the graph.
     pub edge: u32,
     /// Number of the closure's run, from 0. Closures of one run err together.
     pub run: u32,
@@ -25,10 +25,10 @@ pub struct AuditedClosure {
 /// Whether a closure is right, as far as odometry and the other closures tell.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ClosureVerdict {
-    /// Cycles agree with it that share no run with it or each other, each within its bound and
-    /// tight: evidence, never proof.
+    /// Tight cycles within their bounds agree with the closure, and share no run with it or each
+    /// other. This is evidence, not proof.
     Supported {
-        /// The cycles, the surest first; at most
+        /// Cycles that agree, the surest first; at most
         /// [`AuditConfig::most_witnesses`](super::AuditConfig::most_witnesses).
         witnesses: Vec<AuditCycle>,
     },
@@ -36,7 +36,7 @@ pub enum ClosureVerdict {
     Refuted {
         /// Contents of the cycle beside the closure.
         by: RefutedBy,
-        /// The cycle.
+        /// Cycle beyond its bound.
         cycle: AuditCycle,
     },
     /// Neither.
@@ -48,10 +48,11 @@ pub enum ClosureVerdict {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 pub enum RefutedBy {
-    /// Odometry alone: it is refuted if the odometry's bounds hold, whatever the other closures
-    /// are.
+    /// Odometry alone. The closure is wrong if the odometry's bounds hold, whatever the other
+    /// closures are.
     Odometry,
-    /// Odometry and supported closures: it is refuted if their bounds hold and they are right.
+    /// Odometry and supported closures. The closure is wrong if their bounds hold and they are
+    /// right.
     SupportedClosures,
 }
 
@@ -63,7 +64,7 @@ pub enum UndecidedBecause {
         /// Greatest half-axis of the region in which the pose may lie, m; infinite if nothing leads
         /// there.
         position: f64,
-        /// The half-width of the headings it may have, rad.
+        /// Half-width of the headings that the pose may have, rad.
         heading: f64,
     },
     /// Only closures of its own run agree with it, and a run is one witness.
@@ -81,13 +82,13 @@ pub enum UndecidedBecause {
 }
 
 impl ClosureVerdict {
-    /// Returns whether cycles agree with it.
+    /// Returns whether the closure is supported.
     #[must_use]
     pub const fn is_supported(&self) -> bool {
         matches!(self, Self::Supported { .. })
     }
 
-    /// Returns whether a cycle speaks against it.
+    /// Returns whether the closure is refuted.
     #[must_use]
     pub const fn is_refuted(&self) -> bool {
         matches!(self, Self::Refuted { .. })

@@ -1,4 +1,4 @@
-//! Audits checked again: every cycle is measured again from the graph alone.
+//! Verifies audits: measures every cycle again from the graph alone.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
@@ -25,36 +25,38 @@ pub enum AuditCertificateError {
     /// The graph itself cannot be audited.
     #[error(transparent)]
     Graph(#[from] AuditError),
-    /// The certificate is not of a closure of this graph.
-    #[error("edge {edge} is not a closure of this graph")]
+    /// The certificate's edge is not a closure of this graph.
+    #[error("edge {edge} is not a closure of this graph; name the graph that was audited")]
     NoClosure {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
     },
-    /// A closure has two.
-    #[error("edge {edge} has two certificates")]
+    /// A closure has two certificates.
+    #[error("edge {edge} has two certificates; remove one")]
     Twice {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
     },
     /// A cycle is invalid.
-    #[error("the cycle of edge {edge} is invalid: {error}")]
+    #[error("the cycle of edge {edge} is invalid: {error}; audit the graph again")]
     Cycle {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
         /// The underlying error.
         error: CycleError,
     },
-    /// A cycle begins with another closure.
-    #[error("a cycle of edge {edge} begins with another one")]
+    /// A cycle begins with another closure than its certificate's.
+    #[error("a cycle of edge {edge} begins with another edge; audit the graph again")]
     Another {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
     },
-    /// A residual, covariance or χ² is not what the graph gives.
-    #[error("{what} of a cycle of edge {edge} is stated as {told}; the graph gives {measured}")]
+    /// A residual, covariance or χ² differs from what the graph gives.
+    #[error(
+        "{what} of a cycle of edge {edge} is stated as {told}, but the graph gives {measured}; audit the graph again"
+    )]
     Number {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
         /// Name of the number.
         what: &'static str,
@@ -64,9 +66,11 @@ pub enum AuditCertificateError {
         measured: f64,
     },
     /// The cycle that should refute a closure is within its bound.
-    #[error("the cycle of edge {edge} has χ² {chi2}, which is within the bound {most}")]
+    #[error(
+        "the cycle of edge {edge} refutes nothing, as its χ² {chi2} is within the bound {most}; audit the graph again"
+    )]
     Within {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
         /// χ² of the cycle.
         chi2: f64,
@@ -75,10 +79,10 @@ pub enum AuditCertificateError {
     },
     /// A cycle that should support a closure is beyond its bound or too wide.
     #[error(
-        "a cycle of edge {edge} does not support it: χ² {chi2} of at most {most}, or a region that is too wide"
+        "a cycle of edge {edge} does not support it: its χ² is {chi2} of at most {most}, or its region is too wide; audit the graph again"
     )]
     Unsupported {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
         /// χ² of the cycle.
         chi2: f64,
@@ -86,45 +90,55 @@ pub enum AuditCertificateError {
         most: f64,
     },
     /// A closure has no cycle that supports it.
-    #[error("the audit calls edge {edge} supported, but gives no cycle")]
+    #[error("the audit calls edge {edge} supported, but gives no cycle; audit the graph again")]
     NoWitness {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
     },
     /// A cycle leads over a closure without a certificate of its own.
-    #[error("a cycle of edge {edge} leads over edge {over}, which no certificate supports")]
+    #[error(
+        "a cycle of edge {edge} leads over edge {over}, which no certificate supports; audit the graph again"
+    )]
     Unproven {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
         /// The closure it leads over.
         over: u32,
     },
-    /// A cycle leads over a closure of a run that is counted already.
-    #[error("a cycle of edge {edge} leads over edge {over}, whose run is a witness already")]
+    /// A cycle leads over a closure of a run that already counts.
+    #[error(
+        "a cycle of edge {edge} leads over edge {over}, whose run is a witness already; audit the graph again"
+    )]
     SameRun {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
         /// The closure it leads over.
         over: u32,
     },
     /// The cycle that refutes a closure has other steps than the audit states.
-    #[error("the cycle of edge {edge} has other steps than the audit states")]
+    #[error(
+        "the cycle of edge {edge} has other steps than the audit states; audit the graph again"
+    )]
     RefutedBy {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
     },
     /// The number of runs differs.
-    #[error("the audit states {told} runs of closures; the graph gives {measured}")]
+    #[error(
+        "the audit states {told} runs of closures, but the graph gives {measured}; audit the graph again"
+    )]
     Runs {
         /// The audit's value.
         told: u32,
         /// The graph's value.
         measured: u32,
     },
-    /// The run is another.
-    #[error("the audit puts edge {edge} into run {told}; the graph gives {measured}")]
+    /// A closure belongs to another run than the audit states.
+    #[error(
+        "the audit puts edge {edge} into run {told}, but the graph gives {measured}; audit the graph again"
+    )]
     Run {
-        /// The edge.
+        /// Number of the edge, from 0.
         edge: u32,
         /// The certificate's value.
         told: u32,
@@ -288,8 +302,7 @@ impl Checker<'_> {
         Ok(())
     }
 
-    /// Measures a cycle again, compares its numbers with those of the certificate, and counts its
-    /// runs.
+    /// Measures a cycle again, compares its numbers with the certificate's, and counts its runs.
     fn measure(
         &self,
         edge: u32,
@@ -318,7 +331,7 @@ impl Checker<'_> {
     }
 }
 
-/// Holds the numbers of a certificate against those that are measured.
+/// Compares the numbers of a certificate with the measured ones.
 fn compare(
     edge: u32,
     told: &AuditCycle,

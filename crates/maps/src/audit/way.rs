@@ -1,4 +1,4 @@
-//! Ways through odometry and closures that are believed.
+//! Ways through odometry and believed closures.
 
 use alloc::vec::Vec;
 
@@ -24,7 +24,7 @@ pub(super) struct Way {
 }
 
 impl Way {
-    /// Returns the closures it leads over.
+    /// Returns the closures that the way leads over.
     pub(super) fn closures(&self) -> impl Iterator<Item = u32> {
         self.legs.iter().filter_map(|leg| match leg {
             Leg::Span(..) => None,

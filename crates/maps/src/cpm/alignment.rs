@@ -37,8 +37,8 @@ impl Alignment {
     }
 
     /// Returns the similarity of two sequences: 1 less the cheapest alignment's cost for each
-    /// position of the longer one. Equal ones have 1, ones without anything in common about 0, an
-    /// empty one beside any has 0. O(length²) and the distances of prototypes.
+    /// position of the longer one. Equal sequences score 1, sequences without anything in common
+    /// about 0, and an empty one scores 0. O(length²) and the distances of prototypes.
     #[must_use]
     pub fn score(&self, dictionary: &Dictionary, a: &[PatternId], b: &[PatternId]) -> f64 {
         if a.is_empty() || b.is_empty() {

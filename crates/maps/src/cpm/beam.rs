@@ -8,20 +8,20 @@ use super::mapper::{Comparison, Mapper};
 use super::traversal::Traversal;
 use super::turn::{NoSuchTurn, Turn};
 
-/// The likeliest explanations of all that the robot has met: a beam search over hypotheses.
+/// The likeliest explanations of all observations so far: a beam search over hypotheses.
 ///
 /// While many ports are open a beam may lose the truth. That shows by a walk that no hypothesis
 /// explains. The beam then goes through the whole record again with a greater width, which shrinks
 /// again once walks are explained.
 #[derive(Clone, Debug)]
 pub(super) struct Beam {
-    /// The likeliest first, never empty. Costs are counted from that of the first.
+    /// Hypotheses, the likeliest first; never empty. Costs are relative to the first.
     hypotheses: Vec<Hypothesis>,
     /// Maximum number of hypotheses now.
     width: usize,
-    /// Maximum number of hypotheses that was configured.
+    /// Configured maximum number of hypotheses.
     narrow: usize,
-    /// Number of walks understood since the width last changed.
+    /// Number of walks explained since the width last changed.
     understood: u32,
     /// Map before the first event of `met`.
     begin: Mapper,
@@ -37,32 +37,32 @@ enum Event {
 /// Explanation of a walk by the likeliest hypothesis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Understood {
-    /// All before is understood as it was.
+    /// The earlier walks keep their explanation.
     As(MapUpdate),
-    /// The earlier walks have another explanation now.
+    /// The earlier walks have a new explanation.
     Anew(MapUpdate),
-    /// No hypothesis explains it.
+    /// No hypothesis explains the walk.
     Not,
 }
 
 /// Reason why a beam explains nothing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Lost {
-    /// The beam was full once, so a wider one may have kept the truth.
+    /// The beam was full at some time, so a wider one may have kept the truth.
     InNarrowness,
-    /// The beam was never full: a wider one would have kept the same.
+    /// The beam was never full: a wider one would have lost the truth too.
     ForGood,
 }
 
-/// One explanation of a walk, derived from one of the hypotheses before it.
+/// One explanation of a walk, derived from a hypothesis of the beam.
 struct Child {
     hypothesis: Hypothesis,
     arrival: MapUpdate,
-    /// Its parent's place in the beam.
+    /// Index of its parent in the beam.
     parent: usize,
 }
 
-/// The logarithm of odds from which a hypothesis is given up.
+/// Log odds against a hypothesis above which it is dropped.
 const HOPELESS: f64 = 25.0;
 
 /// Maximum factor by which a beam that has lost the truth is widened.
@@ -72,7 +72,7 @@ const WIDEST: usize = 16;
 const CALM: u32 = 32;
 
 impl Beam {
-    /// Starts from one certain hypothesis, `begin`, and keeps at most `width` of them.
+    /// Starts from the certain hypothesis `begin`, and keeps at most `width` hypotheses.
     pub(super) fn new(begin: Mapper, width: u32) -> Self {
         let narrow = width.max(1) as usize;
         Self {
@@ -85,14 +85,14 @@ impl Beam {
         }
     }
 
-    /// Returns the likeliest map, and where the robot is on it.
+    /// Returns the likeliest map, and the robot's place on it.
     pub(super) fn best(&self) -> &Mapper {
         self.hypotheses
             .first()
             .map_or(&self.begin, |best| &best.mapper)
     }
 
-    /// Returns the probability of the likeliest map among all kept ones that are possible with
+    /// Returns the probability of the likeliest map among all kept maps that are possible with
     /// places at least `apart` m apart, 0 to 1.
     pub(super) fn certainty(&self, apart: f64) -> f64 {
         let can_be = |other: &&Hypothesis| {
@@ -118,7 +118,7 @@ impl Beam {
     /// width that it tries. The sum of these widths is less than twice the greatest.
     ///
     /// # Errors
-    /// If the place where the robot is has no such turn; nothing is changed then.
+    /// If the robot's place has no such turn; nothing is changed then.
     pub(super) fn walked(
         &mut self,
         turn: Turn,
@@ -165,8 +165,8 @@ impl Beam {
         }
     }
 
-    /// Goes through the whole record again and returns what the last walk taught. If no hypothesis
-    /// explains all of it, the beam stays as before.
+    /// Goes through the whole record again and returns the update by the last walk. If no
+    /// hypothesis explains all of it, the beam stays as before.
     fn look_again(&mut self, judge: &Comparison<'_>) -> Result<MapUpdate, Lost> {
         let mut now = Vec::from([Hypothesis::certain(self.begin.clone())]);
         let (mut arrival, mut lost) = (None, Lost::ForGood);
@@ -192,7 +192,7 @@ impl Beam {
     /// observations.
     ///
     /// # Errors
-    /// If the place where the robot is has no such turn; nothing is changed then.
+    /// If the robot's place has no such turn; nothing is changed then.
     pub(super) fn turned_back(&mut self, turn: Turn, observations: u32) -> Result<(), NoSuchTurn> {
         self.best().exit(turn)?;
         turn_back(&mut self.hypotheses, turn, observations);
@@ -211,7 +211,7 @@ fn turn_back(hypotheses: &mut Vec<Hypothesis>, turn: Turn, observations: u32) {
     });
 }
 
-/// Returns the hypotheses after a walk, the likeliest first; only one of those that are equal.
+/// Returns the hypotheses after a walk, the likeliest first, without duplicates.
 fn children(
     parents: &[Hypothesis],
     turn: Turn,

@@ -6,7 +6,7 @@ use thiserror::Error;
 /// Directions of the ways out of a place, seen from its middle: rad, counter-clockwise, the first
 /// at 0.
 ///
-/// They tell, in a corridor that a side way leaves, by which of the three ways the robot entered.
+/// Where a side way leaves a corridor, they tell by which of the three ways the robot entered.
 ///
 /// Ours; the paper's junctions number their branches and forget their directions.
 ///
@@ -39,7 +39,7 @@ pub enum BearingsError {
         /// The value given.
         value: f64,
     },
-    /// Counter-clockwise they do not come in this order.
+    /// The directions are not in counter-clockwise order.
     #[error("way {way} does not lie between its neighbours: give the ways counter-clockwise")]
     NotInOrder {
         /// Counted from 0.
@@ -85,7 +85,7 @@ impl Bearings {
         self.0.len() as u32
     }
 
-    /// Returns the same ways, counted from another of them.
+    /// Returns the same ways, counted from `way`.
     #[must_use]
     pub fn counted_from(&self, way: u32) -> Self {
         let count = self.0.len();
@@ -110,7 +110,7 @@ impl Bearings {
         (self.0.len() == other.0.len()).then_some(most)
     }
 
-    /// Returns the ways on: all but the first.
+    /// Returns the ways ahead: all but the first.
     pub(super) fn onward(&self) -> &[f64] {
         self.0.get(1..).unwrap_or_default()
     }
@@ -125,7 +125,7 @@ pub(super) fn between(a: f64, b: f64) -> f64 {
     if angle > PI { TAU - angle } else { angle }
 }
 
-/// Returns the angle in [0, 2π).
+/// Returns an angle wrapped to [0, 2π).
 pub(super) fn wrapped(angle: f64) -> f64 {
     let wrapped = angle - TAU * libm::floor(angle / TAU);
     // A hair below 0 is rounded to the full circle.

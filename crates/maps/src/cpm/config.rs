@@ -35,8 +35,8 @@ pub enum Candidates {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum Mapping {
-    /// *Offline CPM*: the robot takes ports at random and keeps all it has walked; the map is
-    /// optimized once the goal is found.
+    /// *Offline CPM*: the robot takes ports at random and keeps all fragments that it walked; the
+    /// map is optimized once the goal is found.
     Offline {
         /// Number of fragments without the goal after which the mapper switches to *online*, so
         /// that no loop holds the robot forever. `u32::MAX` never switches, like the paper's robot,
@@ -46,7 +46,7 @@ pub enum Mapping {
     /// *Online CPM*, section 6: the map is optimized, and looked at, before each decision.
     Online,
     /// Online, also for mazes with fragments that look alike or symmetrical, which the paper
-    /// excludes. Keeps several maps, each one explanation of all that was met, and returns the
+    /// excludes. Keeps several maps, each an explanation of all observations, and returns the
     /// likeliest. Ours, after the lazily searched trees of topological maps (Johnson, Kuipers
     /// 2012).
     ///
@@ -88,7 +88,7 @@ impl CpMapperConfig {
         }
     }
 
-    /// Returns all that we know better than the paper: alignment, hypotheses.
+    /// Returns our best configuration: alignment and hypotheses.
     #[must_use]
     pub const fn robust() -> Self {
         Self {
@@ -98,7 +98,7 @@ impl CpMapperConfig {
         }
     }
 
-    /// Returns offline CPM of section 4; the rest as [`online`](Self::online).
+    /// Returns offline CPM of section 4, with everything else as in [`online`](Self::online).
     #[must_use]
     pub const fn offline() -> Self {
         Self {

@@ -15,7 +15,7 @@ use tolman_robot::Landmark;
 /// Learns a [`CpMap`] from walks along its fragments: the "path-fragment representation" of layer
 /// 3.
 ///
-/// Also keeps where on the map the robot is. It does not choose where to go next.
+/// It also keeps the robot's place on the map. It does not choose where to go next.
 #[derive(Clone, Debug)]
 pub struct CpMapper {
     config: CpMapperConfig,
@@ -25,7 +25,7 @@ pub struct CpMapper {
     contradictions: u32,
 }
 
-/// Knowledge of the maze, and of the robot's place in it.
+/// Knowledge of the maze, and the robot's place in it.
 #[derive(Clone, Debug)]
 enum Knowledge {
     /// Offline and online: one map.
@@ -62,18 +62,18 @@ impl Knowledge {
 pub enum MapUpdate {
     /// A fragment that was not on the map.
     New,
-    /// A fragment that was on the map, and was walked from where the map has it.
+    /// A fragment that was on the map, walked from a place where the map has it.
     Known,
-    /// A duplicate: it was on the map already, and the robot did not know that it was there. A loop
-    /// is closed.
+    /// A duplicate: the fragment was on the map, and the robot did not know that it was there. A
+    /// loop is closed.
     Duplicate,
     /// A fragment that was not on the map, to a place that was: a loop is closed on arrival.
     Loop,
-    /// Another way to understand all that was met has become the likeliest: the whole map may have
+    /// Another explanation of all observations has become the likeliest: the whole map may have
     /// changed.
     Revised,
-    /// The map expected another place or fragment; the robot goes on with what it found, apart from
-    /// the rest until it recognizes something.
+    /// The map expected another place or fragment. The robot adds what it found, separate from the
+    /// rest until it recognizes something.
     Contradiction,
 }
 
@@ -91,7 +91,7 @@ pub enum CpmError {
     /// No way leads out of a place.
     #[error("the place has no ports; give at least 1, by which the robot came in")]
     NoPorts,
-    /// More ways lead out than any place has.
+    /// More ways lead out of a place than any has.
     #[error("the place has {degree} ports; give at most {most}")]
     TooManyPorts {
         /// Number of ports.
@@ -99,7 +99,7 @@ pub enum CpmError {
         /// Maximum number of ports.
         most: u32,
     },
-    /// The ways out were counted twice, and differently.
+    /// The place's ways were counted twice with different results.
     #[error(
         "the place has {degree} ports but {bearings} bearings; give one for each port, or none"
     )]
@@ -112,20 +112,21 @@ pub enum CpmError {
     /// The junction has no such turn.
     #[error(transparent)]
     Turn(#[from] NoSuchTurn),
-    /// A pattern is not in the dictionary, or the map is another dictionary's.
+    /// A pattern is not in the dictionary, or the map uses another dictionary.
     #[error(transparent)]
     Dictionary(#[from] DictionaryError),
 }
 
-/// Probability below which a map is doubtful among those that explain what was met.
+/// Probability below which a map is doubtful.
 const SURE: f64 = 0.5;
 
 /// Maximum number of ports of a junction.
 pub(super) const MOST_PORTS: u32 = 1000;
 
 impl CpMapper {
-    /// Starts at a place that ends fragments, as if the robot had come in by port 0. At a dead end
-    /// that is its only port, elsewhere the first opening counter-clockwise from straight behind.
+    /// Starts at a place that ends fragments, as if the robot had come in by port 0. At a dead end,
+    /// port 0 is the only one; elsewhere it is the first opening counter-clockwise from straight
+    /// behind.
     ///
     /// A robot that stands in mid-fragment drives on to the first such place before, as in the
     /// paper.
@@ -137,7 +138,7 @@ impl CpMapper {
         Ok(Self::of(config, Mapper::new(start)))
     }
 
-    /// Goes on with a map that was learned before, at one of its ports.
+    /// Continues with a map that was learned before, at one of its ports.
     ///
     /// # Errors
     /// [`CpmError::Turn`] if the map has no such port.
@@ -169,9 +170,9 @@ impl CpMapper {
         self.knowledge.mapper().at
     }
 
-    /// Returns the probability of the map, 0 to 1, among all that explain what was met. Places are
-    /// at least `apart` m apart. It follows from dead reckoning and from what fragments look like.
-    /// `None` for a mapper that keeps one hypothesis. O(width · places² · ports).
+    /// Returns the probability of the map, 0 to 1, among all maps that explain the observations.
+    /// Places are at least `apart` m apart. It follows from dead reckoning and from the fragments'
+    /// patterns. `None` for a mapper that keeps one hypothesis. O(width · places² · ports).
     #[must_use]
     pub fn certainty(&self, apart: f64) -> Option<f64> {
         match &self.knowledge {
@@ -197,20 +198,21 @@ impl CpMapper {
         self.traversals
     }
 
-    /// Returns n_p of Theorem 1, the number of fragments passed before one came again, or `None` if
-    /// none has.
+    /// Returns n_p of Theorem 1, the number of fragments passed before one was met again, or `None`
+    /// if none was.
     #[must_use]
     pub const fn before_duplicate(&self) -> Option<u32> {
         self.before_duplicate
     }
 
-    /// Returns the number of times that the map was not what the robot found.
+    /// Returns the number of times that the map contradicted the robot's observations.
     #[must_use]
     pub const fn contradictions(&self) -> u32 {
         self.contradictions
     }
 
-    /// Takes in a walk: the turn that was performed, and what was met. O(fragments) comparisons.
+    /// Takes in a walk: the turn that was performed, and what the robot observed. O(fragments)
+    /// comparisons.
     ///
     /// # Errors
     /// [`CpmError`]; the explorer is as before then.
@@ -264,8 +266,8 @@ impl CpMapper {
         Ok(())
     }
 
-    /// Merges all that is similar: the offline CPM's last step. With hypotheses similar is not the
-    /// same, and nothing happens. Returns how many fragments were duplicates. O(fragments²)
+    /// Merges all similar fragments: the last step of offline CPM. Returns the number of
+    /// duplicates. With hypotheses, similar fragments may differ, so nothing happens. O(fragments²)
     /// comparisons.
     ///
     /// # Errors
@@ -278,8 +280,8 @@ impl CpMapper {
         })
     }
 
-    /// Returns whether the map is optimized now, and worth being looked at: offline CPM is blind
-    /// until its patience ends.
+    /// Returns whether the map is optimized now, so that looking at it helps. Offline CPM does not
+    /// look until its patience ends.
     #[must_use]
     pub const fn looks_at_map(&self) -> bool {
         self.config.mapping.looks_at_map(self.traversals)
@@ -292,7 +294,7 @@ impl CpMapper {
         map.plan(self.at(), |id| map.has(id, landmark))
     }
 
-    /// Returns the robot has been put at a place of the map, with this port behind it.
+    /// Takes in that the robot was put at a place of the map, with port `at` behind it.
     ///
     /// # Errors
     /// [`CpmError::Turn`] if the map has no such port.
@@ -305,8 +307,8 @@ impl CpMapper {
     }
 }
 
-/// Takes a walk into the only map, offline and online: similar fragments are one. Offline compares
-/// nothing.
+/// Takes a walk into the only map, offline and online. Online, similar fragments are one; offline
+/// compares nothing.
 fn reason(
     mapper: &mut Mapper,
     turn: Turn,

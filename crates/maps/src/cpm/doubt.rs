@@ -2,7 +2,7 @@ use thiserror::Error;
 
 use super::map::{CpMap, JunctionId};
 
-/// Reason why a map is not to be trusted, as far as its learner can tell without the truth.
+/// Reason not to trust a map, as far as its learner can tell without the truth.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MapDoubt {
@@ -14,7 +14,7 @@ pub enum MapDoubt {
         /// Number of places that no known way joins to the robot's.
         places: u32,
     },
-    /// Two places lie where there is room for one.
+    /// Two places lie closer together than places can.
     #[error(
         "by dead reckoning its places {} and {} are at the same position: a loop was not closed",
         one.0, other.0
@@ -22,15 +22,15 @@ pub enum MapDoubt {
     Twice {
         /// The older one.
         one: JunctionId,
-        /// The other.
+        /// Id of the other place.
         other: JunctionId,
     },
-    /// Another map explains what was met as well.
+    /// Another map explains the observations as well.
     #[error(
-        "several maps explain what the robot met, and this one has a probability of {percent:.0} %"
+        "several maps explain the robot's observations, and this one has a probability of {percent:.0} %"
     )]
     Unsure {
-        /// Probability of the map among those that explain what was met, %.
+        /// Probability of the map among those that explain the observations, %.
         percent: f64,
     },
 }
@@ -51,8 +51,7 @@ impl CpMap {
         twice.find_map(|twice| twice)
     }
 
-    /// Returns the doubt that another place lies at the position of this one. O(ports · log
-    /// places).
+    /// Returns a doubt if another place lies at the position of this one. O(ports · log places).
     #[must_use]
     pub fn twice_at(&self, place: JunctionId, apart: f64) -> Option<MapDoubt> {
         let positions = self.positions_from(place);
@@ -67,7 +66,7 @@ impl CpMap {
         })
     }
 
-    /// Returns how many places known ways join to one, itself among them.
+    /// Returns the number of places that known ways join to `from`, itself among them.
     fn reached_from(&self, from: JunctionId) -> usize {
         let Some(first) = self.junctions.rank(from) else {
             return 0;
@@ -97,7 +96,7 @@ mod tests {
     use super::super::traversal::{DeadReckoning, Sighting};
     use super::*;
 
-    /// Returns a map of places that each way leads `(x, y)` m on from one to the next.
+    /// Returns a map of a chain of places: each step leads `(x, y)`, m, from one place to the next.
     fn chain(ways: &[(f64, f64)]) -> CpMap {
         let mut map = CpMap::default();
         let mut last = map.add_junction(Sighting::plain(1), None);

@@ -54,20 +54,20 @@ struct Learned {
     code: Vec<f64>,
 }
 
-/// Memory recalled by one sequence.
+/// Answer of the memory to one sequence.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recollection {
     /// Environment of the sequence.
     pub environment: u32,
     /// The recognized fragment and those that follow it on the learned path, each by the end at
-    /// which it is entered. Stops at the end of the path, or before a fragment that comes again.
+    /// which it is entered. Stops at the end of the path, or before a repeated fragment.
     pub chain: Vec<End>,
     /// Distance of the sequence's code from that of the recognized fragment, per sample, in
     /// distances of prototypes.
     pub distance: f64,
 }
 
-/// Reason why a path cannot be learned, or nothing be recalled.
+/// Reason why a path cannot be learned or recalled.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum RecallError {
@@ -109,8 +109,8 @@ impl Environments {
         })
     }
 
-    /// Associates each fragment of a path, by the end it is entered at, with the next. O(fragments
-    /// · learned).
+    /// Associates each fragment of a path with the next. A fragment is given by the end at which it
+    /// is entered. O(fragments · learned).
     ///
     /// # Errors
     /// [`RecallError`] if the path is too short or not on the map. Nothing is learned then.
@@ -150,8 +150,8 @@ impl Environments {
         Ok(())
     }
 
-    /// Returns the fragment that a sequence is most like, the environment it is of, and what
-    /// follows. O(learned · chain).
+    /// Returns the fragment most similar to a sequence, its environment, and the fragments that
+    /// follow. O(learned · chain).
     ///
     /// # Errors
     /// [`RecallError`] if nothing was learned, or a pattern is not in the dictionary.
@@ -188,7 +188,7 @@ impl Environments {
         all.min_by(|(_, a), (_, b)| a.total_cmp(b))
     }
 
-    /// Returns the prototypes at evenly spaced places of a sequence, one by one.
+    /// Returns the prototypes at evenly spaced positions of a sequence, one by one.
     fn code(
         &self,
         sequence: &[PatternId],

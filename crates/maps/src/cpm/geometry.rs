@@ -10,7 +10,7 @@ use tolman_geom::{Interval, PointBox};
 use super::bearings::wrapped;
 use super::map::{CpMap, JunctionId, Port, PortState, Sign};
 
-/// What dead reckoning says about a map. Ours; the paper only suggests it: "Another good choice is
+/// Geometry of a map by dead reckoning. Ours; the paper only suggests it: "Another good choice is
 /// to add the odometry data".
 impl CpMap {
     /// Returns the position of each junction, by id, relative to `origin`: along the way on which
@@ -47,8 +47,8 @@ impl CpMap {
         positions
     }
 
-    /// Returns the rank of the junction beyond such a port, and where it lies, seen from the
-    /// port's.
+    /// Returns the junction beyond a port, by its rank, and its position relative to the port's
+    /// junction.
     fn step(&self, port: PortState) -> Option<(usize, PointBox)> {
         let PortState::Filled(end) = port else {
             return None;
@@ -63,8 +63,8 @@ impl CpMap {
         Some((self.junctions.rank(head)?, step))
     }
 
-    /// Returns the direction in which one leaves by a port, if a fragment is known there and was
-    /// reckoned.
+    /// Returns the direction in which a robot leaves by a port, or `None` without dead reckoning
+    /// there.
     fn bearing(&self, port: Port) -> Option<Interval> {
         let end = self.end_at(port)?;
         let motion = self.fragment(end.fragment)?.motion?;

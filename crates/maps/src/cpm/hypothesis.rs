@@ -14,17 +14,18 @@ use super::traversal::{DeadReckoning, Traversal};
 use super::turn::{NoSuchTurn, Turn};
 use tolman_robot::Landmark;
 
-/// One explanation of all that the robot has met: a map and its cost.
+/// One explanation of all observations: a map and its cost.
 ///
 /// The cost is a negative log-probability, up to a constant that all hypotheses share. Every step
-/// adds how much less likely it is than a walk into the unknown would have been.
+/// adds its cost relative to a walk into the unknown.
 #[derive(Clone, Debug)]
 pub(super) struct Hypothesis {
     pub(super) mapper: Mapper,
     pub(super) cost: f64,
 }
 
-/// Positions of the junctions of a map, by id, relative to where a walk began; `None` if unknown.
+/// Positions of the junctions of a map, by id, relative to the beginning of a walk; `None` if
+/// unknown.
 type Positions = [Option<PointBox>];
 
 impl Hypothesis {
@@ -72,8 +73,8 @@ impl Hypothesis {
         Ok(all)
     }
 
-    /// Returns whether a walk has certainly led to a place of the map. That holds at the only start
-    /// if its position is known, or at a place like the one seen if no second one fits.
+    /// Returns whether a walk has certainly led to a place of the map. It has if the place is the
+    /// only start and its position is known, or if no second place fits the sighting.
     fn is_known_place(
         &self,
         walk: &Traversal,
@@ -90,7 +91,7 @@ impl Hypothesis {
         })
     }
 
-    /// Returns the walk followed a fragment of the map.
+    /// Returns the hypothesis that the walk followed a known fragment, or `None` if it cannot have.
     fn along(
         &self,
         exit: Port,
@@ -158,8 +159,8 @@ impl Hypothesis {
         all
     }
 
-    /// Returns the fragment just added is one that the map has already. The place it led to is the
-    /// last, and has no position yet.
+    /// Returns the maps in which the fragment `new` is a duplicate of another. The place to which
+    /// it led is the last one and has no position yet.
     fn duplicates(
         &self,
         new: FragmentId,
@@ -205,7 +206,8 @@ impl Hypothesis {
         all
     }
 
-    /// Returns what speaks for two walks being along one fragment, or `None` if they cannot be.
+    /// Returns the log odds, by displacement, that two walks went along one fragment. `None` if the
+    /// displacements cannot be the same; 0 if one is unknown.
     fn motion_evidence(
         &self,
         known: Option<DeadReckoning>,
@@ -223,8 +225,7 @@ impl Hypothesis {
         }
     }
 
-    /// Returns the area in which one junction is to be expected, m²: as far around as fragments
-    /// reach.
+    /// Returns the area in which one junction is expected, m². It reaches as far as fragments do.
     fn area(&self) -> f64 {
         let (mut sum, mut count) = (0.0, 0.0);
         for (_, fragment) in self.mapper.map.fragments() {
@@ -237,8 +238,8 @@ impl Hypothesis {
         if count > 0.0 { sum / count } else { 1.0 }
     }
 
-    /// Returns two hypotheses that say the same look the same: all that can be reached from the
-    /// robot's place, in order.
+    /// Returns a form that is equal for equal hypotheses: everything reachable from the robot's
+    /// place, in order.
     pub(super) fn signature(&self) -> Vec<u32> {
         let Mapper { map, at } = &self.mapper;
         // Junctions by rank, with the port by which each is entered first; and the place of each in
@@ -276,8 +277,7 @@ impl Hypothesis {
 }
 
 impl Comparison<'_> {
-    /// Returns what the observations say for two walks being along one fragment, a logarithm of
-    /// odds.
+    /// Returns the log odds, by observations, that two walks went along one fragment.
     fn evidence(&self, known: &Fragment, patterns: &[PatternId], sense: Sense) -> f64 {
         let score = self.score(patterns, &known.patterns, sense);
         let length = known.patterns.len().min(patterns.len()).max(1) as f64;
@@ -286,16 +286,16 @@ impl Comparison<'_> {
     }
 }
 
-/// Returns what it costs to believe that ways which a robot has seen, having come by a port, are
-/// those of a place.
+/// Returns the cost of the belief that the ways seen from `port` are those of `place`, as a
+/// negative logarithm of odds.
 fn bearings_cost(place: &Junction, port: u32, walk: &Traversal) -> f64 {
     let off = place.apart(port, walk.bearings.as_ref()) / SHARP;
     (0.5 * off * off).min(MOST_EVIDENCE)
 }
 
-/// Returns the log-ratio of two likelihoods. Both say that two places lie within a box of each
-/// other: if they are one, and if they are any two. It is the log of the area that holds places,
-/// over that of the box.
+/// Returns the log-ratio of two likelihoods of two places lying within a box of each other: for one
+/// place, and for any two places. It is the log of the area that holds places over the area of the
+/// box.
 fn coincidence(apart: PointBox, area: f64) -> f64 {
     let side = |side: Interval| side.width().max(1e-3);
     libm::log(area / (side(apart.x) * side(apart.y))).clamp(-MOST_EVIDENCE, MOST_EVIDENCE)
@@ -307,9 +307,9 @@ const LEAST_APART: f64 = 0.05;
 /// Cost of a new place: a map with fewer places is simpler.
 const NEW_PLACE: f64 = 1.0;
 
-/// The logarithm of odds that a whole observation brings.
+/// Log odds that an observation adds, for a score of 1 above the threshold.
 const EVIDENCE: f64 = 5.0;
 
-/// Maximum evidence of a single fragment, because observations and bounds may err in ways that no
-/// model has.
+/// Maximum evidence of a single fragment. Observations and bounds may err in ways that no model
+/// has.
 const MOST_EVIDENCE: f64 = 10.0;

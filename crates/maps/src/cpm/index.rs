@@ -6,9 +6,9 @@ use super::map::FragmentId;
 use super::nodes::Nodes;
 use super::pattern::{Dictionary, PatternId};
 
-/// Ranks the fragments of a large map by how promising a comparison is, as one ranks texts. "One
-/// can use the 'term frequency-inverse document frequency', *tf-idf*, for path-fragment matching in
-/// more complex environment" (section 8).
+/// Ranks the fragments of a large map by how promising a comparison is, in the way that texts are
+/// ranked. "One can use the 'term frequency-inverse document frequency', *tf-idf*, for
+/// path-fragment matching in more complex environment" (section 8).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct FragmentIndex {
     bags: Nodes<FragmentId, Bag>,
@@ -44,7 +44,7 @@ impl FragmentIndex {
         self.bags.remove(id);
     }
 
-    /// Returns up to this many fragments: those that have the most in common with a sequence or its
+    /// Returns up to `most` fragments: those that have the most in common with a sequence or its
     /// inverse, best first, ties by id. O(fragments · patterns of each).
     pub(super) fn candidates(
         &self,
@@ -67,8 +67,8 @@ impl FragmentIndex {
     }
 
     /// Returns, for each fragment by id, its share of common occurrences with `sequence`. Rare
-    /// patterns weigh more. The share is of the longer of the two, as long fragments would
-    /// otherwise have something in common with all.
+    /// patterns weigh more. The share is relative to the longer of the two. Otherwise long
+    /// fragments would resemble all others.
     fn in_common(&self, sequence: &[PatternId]) -> Vec<f64> {
         let seen = Bag::of(sequence);
         let bags = || self.bags.iter().map(|(_, bag)| bag).chain([&seen]);

@@ -51,9 +51,9 @@ pub struct Localizer {
     dictionary: Dictionary,
     config: LocalizerConfig,
     tracks: Vec<Track>,
-    /// Probability of any one place of each map before anything is known.
+    /// Probability of any single position of each map before anything is known.
     anywhere: Vec<f64>,
-    /// Whether anything was observed yet.
+    /// Whether anything was observed so far.
     is_placed: bool,
 }
 
@@ -61,7 +61,7 @@ pub struct Localizer {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct LocalizerConfig {
-    /// That an observation is another pattern than the map's; above 0, less than 1.
+    /// Probability that an observation is another pattern than the map's; above 0, less than 1.
     pub mistake: f64,
     /// Probability that the robot is still at the map's previous observation, and likewise that it
     /// has skipped one; 0 to 0.4.
@@ -74,18 +74,18 @@ pub struct LocalizerConfig {
 /// The robot's most likely place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Location {
-    /// The map, by its place in the list.
+    /// Index of the map in the list.
     pub map: usize,
-    /// The fragment, by the end it was entered at.
+    /// Fragment, by the end at which it was entered.
     pub enter: End,
-    /// The port it leads to or, at a junction, has led to: the argument for
+    /// Port to which the fragment leads, or at which the robot has arrived: the argument for
     /// [`CpMapper::place`](super::CpMapper::place).
     pub ahead: Port,
     /// Probability of that place, 0 to 1.
     pub probability: f64,
 }
 
-/// Reason why a robot cannot be localized, or an event not be taken in.
+/// Reason why a robot cannot be localized, or an event is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LocalizeError {
@@ -102,7 +102,7 @@ pub enum LocalizeError {
         /// Allowed values, in words.
         range: &'static str,
     },
-    /// A map was written with other patterns, or one observed is not in the dictionary.
+    /// A map was written with other patterns, or an observed pattern is not in the dictionary.
     #[error(transparent)]
     Dictionary(#[from] DictionaryError),
     /// No junction at which the robot may be has such a turn.
@@ -120,13 +120,13 @@ struct Track {
     place: Sighting,
     bearings: Option<Bearings>,
     patterns: Vec<PatternId>,
-    /// Probability of each number of them that the robot may have passed, from none to all.
+    /// Probability of each number of observations that the robot may have passed, from none to all.
     passed: Vec<f64>,
 }
 
 impl Track {
-    /// Returns the likelihood of seeing the ways `seen` from the middle of the place ahead. A wrong
-    /// number of ways has been weighed by the sighting already.
+    /// Returns the likelihood of seeing the ways `seen` from the middle of the place ahead. The
+    /// sighting has already weighed a wrong number of ways.
     fn seen(&self, seen: &Bearings) -> f64 {
         let expected = self.bearings.as_ref();
         let apart = expected.and_then(|expected| expected.apart(seen));
@@ -154,12 +154,12 @@ impl Track {
     }
 }
 
-/// Returns the likelihood of an observation of the place, given whether it is what the map has.
+/// Returns the likelihood of an observation of the place, by whether it equals the map's.
 const fn seen_as(is_the_same: bool) -> f64 {
     if is_the_same { 1.0 } else { UNSEEN }
 }
 
-/// Returns the likelihood of two directions `apart` rad apart being one, relative to no distance.
+/// Returns the likelihood that two directions `apart`, rad, are one, relative to no distance.
 fn near(apart: f64, deviation: f64) -> f64 {
     libm::exp(-0.5 * (apart / deviation) * (apart / deviation))
 }
@@ -255,7 +255,7 @@ impl Localizer {
         Ok(localizer)
     }
 
-    /// Returns one observation on the way. O(all sequences' lengths and the distances of
+    /// Takes in one observation on the way. O(all sequences' lengths and the distances of
     /// prototypes).
     ///
     /// # Errors
@@ -341,7 +341,7 @@ impl Localizer {
         }
     }
 
-    /// Moves the belief past all observations that the map still has of each fragment.
+    /// Moves the belief to the end of each fragment, past all its observations.
     fn pass_all(&mut self) {
         let seen = self.config.slip.max(1e-3);
         for track in &mut self.tracks {
@@ -356,7 +356,7 @@ impl Localizer {
         }
     }
 
-    /// Weighs each fragment by the likelihood of what was seen at its end.
+    /// Weighs each fragment by the likelihood of the observation at its end.
     fn weigh(&mut self, likelihood: impl Fn(&Track) -> f64) {
         for track in &mut self.tracks {
             let count = track.patterns.len();
@@ -366,7 +366,7 @@ impl Localizer {
     }
 
     /// Returns the probability that the maps have a fragment where a turn leads. If it is low, the
-    /// robot would go where it knows nothing. O(tracks).
+    /// robot would enter unknown ground. O(tracks).
     #[must_use]
     pub fn knows(&self, turn: Turn) -> f64 {
         self.entered(turn)
@@ -390,7 +390,7 @@ impl Localizer {
         Ok(())
     }
 
-    /// Returns the fragment and the way along it that are most likely, the first of equals.
+    /// Returns the likeliest fragment and direction along it, the first of equals.
     #[must_use]
     pub fn location(&self) -> Location {
         let likelihood = |track: &Track| track.passed.iter().sum();
@@ -421,7 +421,7 @@ impl Localizer {
         sums
     }
 
-    /// Returns how likely a turn leads into each track.
+    /// Returns the probability that a turn leads into each track, in order of tracks.
     fn entered(&self, turn: Turn) -> Result<Vec<f64>, NoSuchTurn> {
         let mut entered = vec![0.0; self.tracks.len()];
         let mut refused = None;
@@ -447,7 +447,7 @@ impl Localizer {
         }
     }
 
-    /// Tracks come in the order of maps and ends.
+    /// Returns the index of the track with this map and end. Tracks are sorted by map and end.
     fn index(&self, map: usize, enter: End) -> Option<usize> {
         let key = (map, enter);
         self.tracks
@@ -481,8 +481,8 @@ impl Localizer {
     }
 }
 
-/// Returns the probability of any one place of each map. All maps that have observations are
-/// equally likely, and so are all places of a map.
+/// Returns the probability of any single position of each map. All maps that have observations are
+/// equally likely, and so are all positions of a map.
 fn anywhere(maps: usize, tracks: &[Track]) -> Vec<f64> {
     let mut places = vec![0_usize; maps];
     for track in tracks {
@@ -496,15 +496,15 @@ fn anywhere(maps: usize, tracks: &[Track]) -> Vec<f64> {
     places.iter().map(each).collect()
 }
 
-/// Mean distance between the prototype observed and that of the map's place, as a fraction of the
-/// greatest distance in the dictionary.
+/// Mean distance between the observed prototype and that of the map's position, as a fraction of
+/// the greatest distance in the dictionary.
 ///
-/// The likelihood is exponential, not normal: observations a stride apart err by much the same, so
-/// a far one says less than independent ones would. With it beliefs are right as often as they
-/// claim.
+/// The likelihood is exponential, not normal. Errors of observations a stride apart are correlated,
+/// so a distant one says less than independent ones would. With it beliefs are right as often as
+/// they claim.
 const NEAR: f64 = 0.14;
 
-/// Probability of seeing a junction as one that it is not.
+/// Probability of mistaking a junction for another kind.
 const UNSEEN: f64 = 1e-3;
 
 /// Standard deviation of directions of ways glimpsed from before a place, rad.

@@ -11,12 +11,12 @@ use super::traversal::{DeadReckoning, Sighting};
 use super::turn::Turn;
 use tolman_robot::Landmark;
 
-/// A fragment of a map. It stays the same as long as the fragment is there.
+/// A fragment of a map. The id stays the same as long as the fragment exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct FragmentId(pub u32);
 
 impl FragmentId {
-    /// Returns one of its ends.
+    /// Returns the end with this sign.
     #[must_use]
     pub const fn end(self, sign: Sign) -> End {
         let fragment = self;
@@ -24,8 +24,8 @@ impl FragmentId {
     }
 }
 
-/// A junction of a map, or a dead end, or a landmark in a corridor. It stays the same as long as
-/// that is there.
+/// A junction of a map, a dead end, or a landmark in a corridor. The id stays the same as long as
+/// the place exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct JunctionId(pub u32);
@@ -43,9 +43,9 @@ impl JunctionId {
 /// path-fragment, the signs are assigned only at the *first* time of traversal."
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Sign {
-    /// End where the robot entered on its first walk along the fragment.
+    /// End at which the robot entered on its first walk along the fragment.
     Minus,
-    /// End where the robot left on that walk.
+    /// End at which the robot left on that walk.
     Plus,
 }
 
@@ -76,7 +76,7 @@ impl fmt::Display for Sign {
 /// One end of a fragment, such as 𝔸⁺.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct End {
-    /// The fragment.
+    /// Fragment to which the end belongs.
     pub fragment: FragmentId,
     /// The end's sign.
     pub sign: Sign,
@@ -90,7 +90,8 @@ impl End {
     }
 }
 
-/// A port of a junction. As the robot's place: the port it came in by, which lies behind it.
+/// A port of a junction. As the robot's place, it is the port by which the robot came, which lies
+/// behind it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(
@@ -98,9 +99,10 @@ impl End {
     serde(from = "(JunctionId, u32)", into = "(JunctionId, u32)")
 )]
 pub struct Port {
-    /// The junction.
+    /// Junction to which the port belongs.
     pub junction: JunctionId,
-    /// Counter-clockwise, from the port of the junction's first entry, which is 0.
+    /// Number of the port, counter-clockwise from the port of the junction's first entry, which is
+    /// 0.
     pub number: u32,
 }
 
@@ -119,9 +121,9 @@ impl From<Port> for (JunctionId, u32) {
 /// Knowledge about a port.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PortState {
-    /// The robot has not been there, or not to its end.
+    /// The port is unexplored, or was not explored to its end.
     Open {
-        /// Number of observations made in it before the robot turned round.
+        /// Number of observations made beyond it before the robot turned round.
         at_least: u32,
     },
     /// A fragment begins or ends here.
@@ -225,8 +227,8 @@ impl Fragment {
 
 /// ℳ: the common-pattern map. Fragments, and the junctions that join them.
 ///
-/// Every fragment has each of its ends at a port that says so. Ids ascend in the order of making
-/// and are not used again.
+/// Each end of a fragment is at a port that names it. Ids ascend in the order of creation and are
+/// not reused.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CpMap {
     pub(super) fragments: Nodes<FragmentId, Fragment>,
@@ -248,7 +250,7 @@ impl CpMap {
         self.junctions.iter()
     }
 
-    /// Returns the size of fragments and junctions, each with its id, bytes. O(fragments +
+    /// Returns the memory of fragments and junctions, each with its id, bytes. O(fragments +
     /// junctions).
     #[must_use]
     pub fn bytes(&self) -> usize {
@@ -265,13 +267,13 @@ impl CpMap {
         fragments.sum::<usize>() + junctions.sum::<usize>()
     }
 
-    /// Returns a fragment, or `None` where it was merged into another.
+    /// Returns a fragment, or `None` if it was merged into another.
     #[must_use]
     pub fn fragment(&self, id: FragmentId) -> Option<&Fragment> {
         self.fragments.get(id)
     }
 
-    /// Returns a junction, or `None` where it was unified with another.
+    /// Returns a junction, or `None` if it was unified with another.
     #[must_use]
     pub fn junction(&self, id: JunctionId) -> Option<&Junction> {
         self.junctions.get(id)
@@ -283,14 +285,14 @@ impl CpMap {
         self.junctions.get(junction).map_or(0, Junction::degree)
     }
 
-    /// Returns the newest version of the dictionary that its sequences need, or `None` for an empty
-    /// map.
+    /// Returns the version of the dictionary with which its sequences were written, or `None` for
+    /// an empty map.
     #[must_use]
     pub const fn version(&self) -> Option<Version> {
         self.version
     }
 
-    /// Refuses a dictionary that its sequences are not written in.
+    /// Refuses a dictionary with which its sequences were not written.
     ///
     /// # Errors
     /// [`DictionaryError::OtherDictionary`].
@@ -315,7 +317,7 @@ impl CpMap {
         }
     }
 
-    /// Returns the port at which a robot arrives that leaves by `port`, or `None` if it is not
+    /// Returns the port at which a robot arrives if it leaves by `port`, or `None` if it is not
     /// known.
     #[must_use]
     pub fn beyond(&self, port: Port) -> Option<Port> {
@@ -329,8 +331,7 @@ impl CpMap {
         junction.map_or(&[][..], |junction| &junction.ports)
     }
 
-    /// Returns where one arrives who leaves by such a port: the junction's rank, and the number of
-    /// its port.
+    /// Returns the junction to which a port leads, by its rank, and the number of its port there.
     pub(super) fn led_to(&self, port: PortState) -> Option<(usize, u32)> {
         let PortState::Filled(end) = port else {
             return None;
@@ -368,8 +369,7 @@ impl CpMap {
         marked.map(|(id, _)| id)
     }
 
-    /// Returns the port behind a robot that has just begun the map at its first start, or `None` if
-    /// the map has no start.
+    /// Returns the port behind a robot at the map's first start, or `None` if the map has no start.
     #[must_use]
     pub fn start(&self) -> Option<Port> {
         Some(self.landmarks(Landmark::Start).next()?.port(0))

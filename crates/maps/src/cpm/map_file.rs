@@ -33,7 +33,7 @@ use tolman_robot::Landmark;
 /// ```
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MapFile {
-    /// Number of each kind of entry; a truncated file has fewer.
+    /// Number of entries of each kind; a truncated file has fewer.
     counts: Counts,
     dictionary: SavedDictionary,
     map: SavedMap,
@@ -49,7 +49,7 @@ struct Counts {
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 struct SavedDictionary {
     dimension: usize,
-    /// Hexadecimal, since readers of JSON may know no integers of 64 bits.
+    /// Hexadecimal fingerprint, since readers of JSON may not support integers of 64 bits.
     fingerprint: String,
     patterns: Vec<Pattern>,
 }
@@ -76,7 +76,7 @@ struct SavedJunction {
     id: u32,
     landmark: Option<Landmark>,
     ports: Vec<SavedPort>,
-    /// Directions the ports lead to, rad, from port 0 on, or `None` if no robot has looked.
+    /// Bearings of the ports, rad, from port 0 on, or `None` if no robot has looked.
     #[serde(skip_serializing_if = "Option::is_none")]
     bearings: Option<Vec<f64>>,
 }
@@ -84,11 +84,11 @@ struct SavedJunction {
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum SavedPort {
-    /// Explored for this many observations, without reaching the end.
+    /// Explored for this number of observations, without reaching the end.
     Open(u32),
-    /// 𝔸⁻ of this fragment.
+    /// End 𝔸⁻ of this fragment.
     Minus(u32),
-    /// 𝔸⁺ of this fragment.
+    /// End 𝔸⁺ of this fragment.
     Plus(u32),
 }
 
@@ -101,34 +101,40 @@ pub enum MapFileError {
     Truncated {
         /// Kind of entry that is missing.
         what: &'static str,
-        /// Number the file promises.
+        /// Number that the file promises.
         expected: usize,
         /// Number found.
         found: usize,
     },
     /// The map has fragments but no dictionary version, so their patterns cannot be identified.
-    #[error("it has fragments, but not the number of patterns they were written with")]
+    #[error(
+        "it has fragments, but not the number of patterns they were written with; learn the map again"
+    )]
     Unversioned,
-    /// The patterns are not those that were written.
-    #[error("its patterns have the fingerprint {found}, not {expected}: they were changed")]
+    /// The patterns were changed after the file was written.
+    #[error(
+        "its patterns have the fingerprint {found}, not {expected}: they were changed; copy the file again"
+    )]
     Fingerprint {
         /// Version the file states.
         expected: String,
         /// Version its patterns have.
         found: String,
     },
-    /// The patterns are invalid, or the map is another robot's.
+    /// The patterns are invalid, or the map belongs to another robot.
     #[error(transparent)]
     Dictionary(#[from] DictionaryError),
-    /// More branches than any junction has.
-    #[error("junction {junction} has {ports} ports, at most {MOST_PORTS} are allowed")]
+    /// A junction has more ports than any junction may have.
+    #[error(
+        "junction {junction} has {ports} ports, but at most {MOST_PORTS} are allowed; learn the map again"
+    )]
     TooManyPorts {
         /// Its number.
         junction: u32,
-        /// Number of its ports.
+        /// Number of the junction's ports.
         ports: usize,
     },
-    /// The ways of a junction lead nowhere, or not to its ports.
+    /// The bearings of a junction's ways are invalid.
     #[error("the bearings of junction {junction} are invalid: {source}")]
     Bearings {
         /// Its number.
@@ -136,8 +142,10 @@ pub enum MapFileError {
         /// Fault of the bearings.
         source: BearingsError,
     },
-    /// There are more or fewer bearings than ports.
-    #[error("junction {junction} has {bearings} bearings for {ports} ports")]
+    /// A junction has another number of bearings than of ports.
+    #[error(
+        "junction {junction} has {bearings} bearings for {ports} ports; give one for each port, or none"
+    )]
     BearingsOfPorts {
         /// Its number.
         junction: u32,
@@ -146,22 +154,22 @@ pub enum MapFileError {
         /// Number of its ports.
         ports: usize,
     },
-    /// Two things of one number, or one beyond those that are given out.
-    #[error("{what} {id} appears twice, or was never assigned")]
+    /// Two entries have one id, or an id is larger than any that was given out.
+    #[error("{what} {id} appears twice, or was never assigned; learn the map again")]
     BadId {
-        /// A fragment or a junction.
+        /// Kind of entry: a fragment or a junction.
         what: &'static str,
         /// Its number.
         id: u32,
     },
-    /// A fragment and a port do not say the same of each other.
-    #[error("end {} of fragment {} and port {port} of junction {junction} do not belong to each other", .end.sign, .end.fragment.0)]
+    /// A fragment and a port contradict each other.
+    #[error("end {} of fragment {} and port {port} of junction {junction} do not belong to each other; learn the map again", .end.sign, .end.fragment.0)]
     Unjoined {
-        /// The end.
+        /// End of the fragment.
         end: End,
-        /// The junction.
+        /// Id of the junction.
         junction: u32,
-        /// The port.
+        /// Number of the port at the junction.
         port: u32,
     },
 }
@@ -225,8 +233,8 @@ impl MapFile {
         }
     }
 
-    /// Returns the map as it was, for a robot with this dictionary: that of the file, or one that
-    /// has grown out of it.
+    /// Returns the map as it was, for a robot with this dictionary: that of the file or a later
+    /// version of it.
     ///
     /// # Errors
     /// [`MapFileError`] as of [`dictionary`](Self::dictionary), if the robot's is another one, or

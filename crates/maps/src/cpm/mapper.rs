@@ -9,7 +9,7 @@ use super::traversal::{Sighting, Traversal};
 use super::turn::{NoSuchTurn, Turn};
 use super::unify::Merges;
 
-/// A map and where on it the robot is.
+/// A map and the robot's place on it.
 #[derive(Clone, Debug)]
 pub(super) struct Mapper {
     pub(super) map: CpMap,
@@ -25,8 +25,8 @@ impl Mapper {
         Self { map, at }
     }
 
-    /// Takes in a walk if it is along a fragment of the map that leads where it should and is
-    /// trusted; returns whether it is.
+    /// Takes in a walk if it is along a known fragment, leads where the map says, and is trusted.
+    /// Returns whether it is.
     pub(super) fn follow(
         &mut self,
         exit: Port,
@@ -47,8 +47,9 @@ impl Mapper {
         is_expected
     }
 
-    /// Starts a new part of the map, because the robot is not where the map has it. The walk begins
-    /// at an unconnected copy of the place, until that is recognized; the port stays as it is.
+    /// Starts a new part of the map, because the robot is not where the map has it. The new part
+    /// begins at an unconnected copy of the place, until the place is recognized. The port stays
+    /// the same.
     pub(super) fn go_adrift(&mut self, exit: Port, walk: &Traversal) -> FragmentId {
         let place = self.map.junction(exit.junction);
         let sighting = place.map(Junction::sighting);
@@ -63,7 +64,7 @@ impl Mapper {
     }
 
     /// Adds the walk as a new fragment from `exit`, "together with the performed transition". The
-    /// junction that it led to is new as well, until unified with another.
+    /// junction at its end is new as well, until it is unified with another.
     pub(super) fn append(&mut self, exit: Port, walk: &Traversal) -> FragmentId {
         let junction = self.map.add_junction(walk.sighting, walk.bearings.clone());
         self.at = junction.port(0);
@@ -94,8 +95,8 @@ impl Mapper {
         }
     }
 
-    /// Notes that the robot has turned round in a fragment and is back, after `observations`
-    /// observations in it.
+    /// Notes that the robot has turned round in a fragment after `observations` observations, and
+    /// is back.
     pub(super) fn came_back(&mut self, exit: Port, observations: u32) {
         if let Some(PortState::Open { at_least }) = self.map.port_state_mut(exit) {
             *at_least = observations.max(*at_least);
@@ -110,8 +111,8 @@ impl Mapper {
         Ok(junction.port(turn.exit(number, degree)?))
     }
 
-    /// Returns the fragment that another one is a duplicate of: the most similar one with which it
-    /// can be unified, which it then is.
+    /// Unifies a fragment with the most similar one that it can duplicate. Returns the merges, or
+    /// `None` if there is no such fragment.
     pub(super) fn unify_with_similar(
         &mut self,
         new: FragmentId,
@@ -165,13 +166,13 @@ pub(super) struct Comparison<'a> {
 }
 
 impl Comparison<'_> {
-    /// Returns how similar two sequences are, the second walked as the sense says.
+    /// Returns the similarity of two sequences, the second walked in the given sense.
     pub(super) fn score(&self, one: &[PatternId], other: &[PatternId], sense: Sense) -> f64 {
         let compute = || self.matching.score_as(self.dictionary, one, other, sense);
         self.scores.of(one, other, sense, compute)
     }
 
-    /// Returns the fragments to compare one of the map with.
+    /// Returns the fragments that may duplicate a fragment of the map.
     pub(super) fn others<'m>(
         &self,
         map: &'m CpMap,
@@ -201,8 +202,8 @@ impl Comparison<'_> {
         others
     }
 
-    /// Returns whether an online robot takes the walk for the known fragment that it entered at
-    /// `end`. It does, unless another fragment fits what it has observed and this one does not.
+    /// Returns whether an online robot identifies the walk with the known fragment that it entered
+    /// at `end`. It does, unless another fragment fits the observations and this one does not.
     fn trusts(&self, map: &CpMap, walk: &Traversal, end: End) -> bool {
         let Self {
             matching,

@@ -53,8 +53,8 @@ impl<I: Copy + Ord, T: Clone> Nodes<I, T> {
         Some(Arc::make_mut(node))
     }
 
-    /// Returns whether there was none of this id; else the new one takes its place. The last id is
-    /// the cheapest.
+    /// Inserts a node, or replaces the one with this id. Returns whether the id is new. The last id
+    /// is the cheapest.
     pub(super) fn insert(&mut self, id: I, node: T) -> bool {
         let place = self.search(id);
         let nodes = Arc::make_mut(&mut self.0);

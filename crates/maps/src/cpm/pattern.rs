@@ -33,7 +33,7 @@ pub struct PatternId(pub u32);
 pub struct Dictionary {
     dimension: usize,
     pub(super) patterns: Vec<Pattern>,
-    /// The fingerprint of each version, beginning with that of none.
+    /// Fingerprint of each version, beginning with the empty one.
     fingerprints: Vec<u64>,
     greatest_distance: f64,
 }
@@ -58,7 +58,7 @@ pub struct Version {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum DictionaryError {
-    /// A prototype of another size.
+    /// A prototype has another number of features.
     #[error("the prototype has {found} features; give {expected}, as the dictionary has")]
     WrongDimension {
         /// Number of features of the dictionary.
@@ -74,30 +74,30 @@ pub enum DictionaryError {
         /// The value given.
         value: f64,
     },
-    /// A tolerance that is invalid.
+    /// A tolerance is negative or not a number.
     #[error("the tolerance is {value}: it has to be 0 or more")]
     BadTolerance {
         /// The value given.
         value: f64,
     },
-    /// A pattern that the dictionary does not have.
+    /// A pattern is not in the dictionary.
     #[error("pattern {} does not exist in this dictionary of {patterns}; use the one it was observed with", .pattern.0)]
     UnknownPattern {
-        /// The pattern.
+        /// Id of the pattern.
         pattern: PatternId,
         /// Number of patterns in the dictionary.
         patterns: u32,
     },
-    /// The patterns of a map are not this dictionary's.
+    /// A map was written with the patterns of another dictionary.
     #[error("it was written with {} patterns of another dictionary; use the one it was learned with", .version.patterns)]
     OtherDictionary {
         /// Version it was written with.
         version: Version,
     },
-    /// A list of half-turned patterns is not an involution.
+    /// Two half-turned patterns do not name each other.
     #[error("the half turn of pattern {} is {}, whose half turn is another pattern; make the two point to each other", .pattern.0, .half_turned.0)]
     NotInvolutive {
-        /// The pattern.
+        /// Id of the pattern.
         pattern: PatternId,
         /// The pattern stated as its half-turned partner.
         half_turned: PatternId,
@@ -141,9 +141,9 @@ impl Dictionary {
     }
 
     /// Returns the pattern of an observation: the nearest if it lies within `tolerance`, else a new
-    /// one with the observation as prototype. A new pattern comes with a partner for `half_turned`,
-    /// the same seen the other way, unless that is known or nearly the same. The paper asks for it:
-    /// "the CPs must be learned incrementally". O(patterns · features).
+    /// one with the observation as prototype. A new pattern gets a partner for `half_turned`, the
+    /// view the other way, unless that is known or nearly the same. The paper asks for it: "the CPs
+    /// must be learned incrementally". O(patterns · features).
     ///
     /// # Errors
     /// [`DictionaryError`] if one of the observations or the tolerance is invalid. Nothing is
@@ -205,7 +205,7 @@ impl Dictionary {
         self.patterns.len()
     }
 
-    /// Returns whether there are none.
+    /// Returns whether the dictionary has no patterns.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.patterns.is_empty()
@@ -218,14 +218,14 @@ impl Dictionary {
         Some(&pattern.prototype)
     }
 
-    /// Returns the pattern seen the other way; of one that is not there, itself.
+    /// Returns the pattern seen the other way; an unknown pattern itself.
     #[must_use]
     pub fn half_turned(&self, pattern: PatternId) -> PatternId {
         let known = self.patterns.get(pattern.0 as usize);
         known.map_or(pattern, |known| known.half_turned)
     }
 
-    /// Returns the distance of two prototypes, infinite if one is not there. O(features).
+    /// Returns the distance of two prototypes, infinite if one does not exist. O(features).
     #[must_use]
     pub fn distance(&self, a: PatternId, b: PatternId) -> f64 {
         if a == b {
@@ -243,8 +243,8 @@ impl Dictionary {
         self.greatest_distance
     }
 
-    /// Returns A⁻¹, what is observed along a sequence walked the other way: its order reversed,
-    /// each pattern half turned.
+    /// Returns A⁻¹, the sequence observed along a fragment walked the other way: its order
+    /// reversed, each pattern half turned.
     ///
     /// # Errors
     /// If a pattern is not the dictionary's.
@@ -254,7 +254,7 @@ impl Dictionary {
         Ok(backward.map(|pattern| self.half_turned(*pattern)).collect())
     }
 
-    /// Refuses sequences with patterns that are not there.
+    /// Refuses sequences with patterns that the dictionary does not have.
     ///
     /// # Errors
     /// If a pattern is not the dictionary's.
@@ -266,7 +266,7 @@ impl Dictionary {
         }
     }
 
-    /// Returns the version as it is now.
+    /// Returns the current version.
     #[must_use]
     pub fn version(&self) -> Version {
         Version {
@@ -285,7 +285,7 @@ impl Dictionary {
         })
     }
 
-    /// Refuses what was written with another dictionary; its own earlier versions are welcome.
+    /// Refuses what was written with another dictionary, but accepts earlier versions of this one.
     ///
     /// # Errors
     /// [`DictionaryError::OtherDictionary`].

@@ -10,18 +10,18 @@ use super::turn::Turn;
 /// another junction, perform Δ, and make observation again to confirm the correct destination".
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Plan {
-    /// Fragments in order; empty if the robot is there already.
+    /// Fragments in order; empty if the robot is at the destination.
     pub legs: Vec<PlanLeg>,
-    /// Length ℓ of all legs together, observations.
+    /// Sum of the lengths ℓ of all legs, observations.
     pub length: u32,
 }
 
 /// One fragment of a plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PlanLeg {
-    /// Δ, to perform first.
+    /// Δ, performed before the leg.
     pub turn: Turn,
-    /// The fragment, by the end to enter it at.
+    /// Fragment, by the end at which it is entered.
     pub enter: End,
     /// Port at which the leg arrives.
     pub arrive: Port,
@@ -32,8 +32,8 @@ pub struct PlanLeg {
 
 impl CpMap {
     /// Returns the shortest known way, in observations, from a robot's place to the nearest
-    /// junction that is wanted, or `None` if none is known. Ties go to the older junctions and
-    /// fragments. O(fragments · log fragments).
+    /// junction for which `wanted` is true, or `None` if none is known. Ties go to the older
+    /// junctions and fragments. O(fragments · log fragments).
     #[must_use]
     pub fn plan(&self, from: Port, wanted: impl Fn(JunctionId) -> bool) -> Option<Plan> {
         let source = self.junctions.rank(from.junction)? as u32;
@@ -61,8 +61,8 @@ impl CpMap {
         Some(Plan { legs, length })
     }
 
-    /// Returns the shortest of the fragments that lead from one junction to another, by the end to
-    /// enter it at.
+    /// Returns the shortest of the fragments from one junction to another, by the end at which it
+    /// is entered.
     fn shortest_to(&self, from: JunctionId, to: JunctionId) -> Option<End> {
         let ports = 0..self.junction(from)?.degree();
         let ends = ports.filter_map(|number| {
@@ -76,7 +76,7 @@ impl CpMap {
     }
 }
 
-/// The map as planners see it: junctions by their rank, fragments by their length.
+/// Graph of the map for planners: junctions by their rank, fragments by their length.
 impl Graph for CpMap {
     fn node_count(&self) -> usize {
         self.junctions.len()

@@ -14,8 +14,8 @@ pub(super) struct Scores(RefCell<BTreeMap<Vec<PatternId>, Row>>);
 type Row = BTreeMap<Vec<PatternId>, BTreeMap<Sense, f64>>;
 
 impl Scores {
-    /// Returns the score of a pair, which is computed the first time. O(length · log pairs) from
-    /// then on.
+    /// Returns the score of a pair, which is computed the first time only. O(length · log pairs)
+    /// from then on.
     pub(super) fn of(
         &self,
         one: &[PatternId],

@@ -27,12 +27,13 @@ pub enum Sense {
 }
 
 impl Sense {
-    /// Returns how a fragment is walked that is entered at an end.
+    /// Returns the sense in which a fragment is walked from an end: [`Same`](Self::Same) from the
+    /// end −.
     pub(super) fn entered_at(sign: Sign) -> Self {
         Self::between(Sign::Minus, sign)
     }
 
-    /// Returns which way round two fragments are one whose ends of these signs are.
+    /// Returns the sense in which two fragments are one, if their ends of these signs coincide.
     pub(super) fn between(one: Sign, other: Sign) -> Self {
         match one == other {
             true => Self::Same,
@@ -40,7 +41,7 @@ impl Sense {
         }
     }
 
-    /// Returns the sign of the other fragment's end that an end belongs to.
+    /// Returns the sign of the end of the other fragment at the place of an end.
     #[must_use]
     pub const fn of(self, sign: Sign) -> Sign {
         match self {
@@ -102,8 +103,8 @@ impl FragmentMatching {
         }
     }
 
-    /// Returns the score above which two fragments at one port may be one, where that follows from
-    /// the similarity of others. It is below μ, as those others are evidence too.
+    /// Returns the score above which two fragments at one port may be one, if the similarity of
+    /// others implies it. It is below μ, as those others are evidence too.
     #[must_use]
     pub const fn threshold_at_port(&self) -> f64 {
         match self {
@@ -157,7 +158,7 @@ impl FragmentMatching {
     }
 }
 
-/// f_S, equations (3) to (5), and the readings they allow.
+/// f_S, equations (3) to (5), with the possible readings of them.
 ///
 /// ```
 /// use tolman_maps::cpm::{Dictionary, PatternDifference, PatternId, Similarity};
@@ -178,7 +179,7 @@ impl FragmentMatching {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Similarity {
-    /// Measure of aⱼ − a'ⱼ.
+    /// Measure of the difference aⱼ − a'ⱼ.
     pub difference: PatternDifference,
     /// Positions that are compared.
     pub span: Span,
@@ -186,8 +187,8 @@ pub struct Similarity {
     pub sum: Sum,
     /// μ: above it two fragments are the same; 0 to 1. "We simply set μ = 0.9."
     pub mu: f64,
-    /// Similarity above which two fragments are the same if similar fragments would make them lead
-    /// out of one port; 0 to `mu`. Ours.
+    /// Similarity above which two fragments at one port are the same, if other similar fragments
+    /// imply it; 0 to `mu`. Ours.
     pub mu_at_port: f64,
 }
 
@@ -196,10 +197,10 @@ pub struct Similarity {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum PatternDifference {
-    /// The distance of their prototypes; d_max is the greatest of those.
+    /// Distance of their prototypes; d_max is the greatest of those.
     Prototypes,
-    /// The difference of their numbers, taken literally, though numbers are names; d_max is that of
-    /// the last and the first.
+    /// Difference of their numbers, taken literally, though numbers are names; d_max is that of the
+    /// last and the first.
     Indices,
 }
 
@@ -208,10 +209,10 @@ pub enum PatternDifference {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Span {
-    /// Compares all of both: the shorter sequence is stretched over the longer one.
+    /// Both sequences whole: the shorter one is stretched over the longer one.
     Whole,
-    /// Compares up to the end of the shorter one, taken literally: a fragment is similar to all
-    /// that begin like it.
+    /// Up to the end of the shorter one, taken literally: a fragment is similar to all that begin
+    /// like it.
     Shorter,
 }
 

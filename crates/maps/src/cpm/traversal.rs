@@ -13,9 +13,9 @@ use tolman_robot::Landmark;
 /// also be used to divide fragment as well".
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sighting {
-    /// Number of ways out, the port of entry among them; at least 1.
+    /// Number of ways out, including the port of entry; at least 1.
     pub degree: u32,
-    /// The landmark that stands there.
+    /// Landmark at the place.
     pub landmark: Option<Landmark>,
 }
 
@@ -30,7 +30,7 @@ impl Sighting {
     }
 }
 
-/// In words: `a dead end`, `a junction of 3 ways, the start`.
+/// Writes the sighting in words: `a dead end`, `a junction of 3 ways, the start`.
 impl fmt::Display for Sighting {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.degree {
@@ -70,14 +70,14 @@ pub struct Traversal {
 pub struct DeadReckoning {
     /// Position of the end relative to the beginning, m.
     pub displacement: PointBox,
-    /// The heading in which the robot left, rad; not wrapped.
+    /// Heading in which the robot left, rad, counter-clockwise from east; not wrapped.
     pub departure: Interval,
     /// Heading in which the robot arrived, rad, counter-clockwise from east; not wrapped.
     pub arrival: Interval,
 }
 
 impl DeadReckoning {
-    /// Returns the same walked the other way.
+    /// Returns the dead reckoning of the same walk the other way.
     #[must_use]
     pub fn reversed(self) -> Self {
         Self {
@@ -87,8 +87,8 @@ impl DeadReckoning {
         }
     }
 
-    /// Returns the bounds that both allow of walks along one fragment, headings up to full circles.
-    /// `None` if they contradict each other.
+    /// Returns the bounds that satisfy both, for two walks along one fragment. Headings count up to
+    /// full circles. `None` if they contradict each other.
     #[must_use]
     pub fn intersection(self, other: Self) -> Option<Self> {
         let pose = |motion: Self, heading| PoseBox::new(motion.displacement, heading);

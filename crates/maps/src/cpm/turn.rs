@@ -14,14 +14,14 @@ pub struct Turn(pub u32);
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("turn {} does not exist at a junction of {degree} ports; turns run from 0 to {degree} − 1", .turn.0)]
 pub struct NoSuchTurn {
-    /// The turn.
+    /// Turn that was asked for.
     pub turn: Turn,
     /// The junction's ports.
     pub degree: u32,
 }
 
 impl Turn {
-    /// Out by the port of entry.
+    /// Turn that leaves by the port of entry.
     pub const BACK: Self = Self(0);
 
     /// Returns the turn that leads from port `entry` to port `exit`.

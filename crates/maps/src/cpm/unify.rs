@@ -17,7 +17,7 @@ pub(super) struct Merges {
 }
 
 impl Merges {
-    /// Returns what has become of an end.
+    /// Returns the end that an end has become by merges.
     #[must_use]
     pub(super) fn end(&self, mut end: End) -> End {
         while let Some((fragment, sense)) = self.fragments.get(&end.fragment) {
@@ -31,7 +31,7 @@ impl Merges {
         self.fragments.contains_key(&fragment)
     }
 
-    /// Returns what has become of a port.
+    /// Returns the port that a port has become by merges.
     #[must_use]
     pub(super) fn port(&self, mut port: Port) -> Port {
         while let Some((junction, offset, degree)) = self.junctions.get(&port.junction) {
@@ -45,14 +45,14 @@ impl Merges {
 pub(super) type Agree<'a> = &'a dyn Fn(&Fragment, &Fragment, Sense) -> bool;
 
 impl CpMap {
-    /// Returns the map in which two fragments are one, with all that follows: "given that 𝔸₁ is
+    /// Returns the map in which two fragments are one, with all consequences: "given that 𝔸₁ is
     /// approximately identical to 𝔸₂, then junc(𝔸₁⁺) = junc(𝔸₂⁺) and junc(𝔸₁⁻) = junc(𝔸₂⁻)", or +
     /// to − if they are similar inverted.
     ///
     /// "Those similar junctions must be *unified*": laid over each other, turned so that the
     /// fragment's ports meet. If both then have a fragment at a port, these two are one as well,
-    /// and so on. If only one has, the other gets it: both sub-cases of equations (9) and (10). The
-    /// older fragments and junctions stay.
+    /// and so on. If only one has one, the other gets it: both sub-cases of equations (9) and (10).
+    /// The older fragments and junctions stay.
     ///
     /// `agree` is asked about all pairs but the first. O(fragments + junctions) and these
     /// questions.
@@ -93,7 +93,7 @@ impl CpMap {
 struct Unification {
     map: CpMap,
     merges: Merges,
-    /// Ends that have met at a port.
+    /// Pairs of ends that meet at a port.
     queue: Vec<(End, End)>,
 }
 
@@ -124,7 +124,7 @@ impl Unification {
         Some(())
     }
 
-    /// Makes two ports one, and so their junctions.
+    /// Makes two ports one, and thus their junctions.
     fn meet(&mut self, a: Port, b: Port) -> Option<()> {
         let (a, b) = (self.merges.port(a), self.merges.port(b));
         let (kept, gone) = if a.junction <= b.junction {
@@ -170,7 +170,7 @@ impl Unification {
         Some(())
     }
 
-    /// Brings all ends and ports to the names that have stayed.
+    /// Replaces all names of ends and ports by those that remain.
     fn settle(&mut self) {
         for fragment in self.map.fragments.iter_mut() {
             let ends = [fragment.minus, fragment.plus];

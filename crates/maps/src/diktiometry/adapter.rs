@@ -1,4 +1,4 @@
-//! The adapter: it changes the map by what the best track matched.
+//! Changes the map by the best match of the best track.
 
 use alloc::vec::Vec;
 
@@ -9,12 +9,12 @@ use super::{
     PlaceId, Projection, Similarity, Successor, Track, elide_place, remember, trusted_odometry,
 };
 
-/// Number of earlier places, before the last, that are related to a new one directly: two moves
-/// back, three, …
+/// Number of earlier places, before the last, that are related directly to a new one.
 const SPAN: usize = 4;
 
 impl Observer {
-    /// Returns the updater: the best track's best match changes the map.
+    /// Updates the map by the best match of the best track. Returns the place where the robot now
+    /// is, and the link that it took.
     pub(super) fn write(
         &mut self,
         track: &Track,
@@ -80,7 +80,7 @@ impl Observer {
         (to, Some(link))
     }
 
-    /// Relates the places met lately to the one just met, by the way between them.
+    /// Relates the recent places to the present one by the way between them.
     ///
     /// The robot's stopping point within a place matters only at the two ends of such a way. A
     /// chain of relations counts it at both ends of every move. With a place radius of 0 there is
@@ -105,8 +105,8 @@ impl Observer {
         }
     }
 
-    /// Returns a place where the track is projected to be, in the frame it came from or in one of
-    /// its own.
+    /// Adds a place where the track is projected to be, in the current frame or in a new one.
+    /// Returns it with the robot's position in its frame.
     fn make_place(&mut self, projection: &Projection) -> (PlaceId, PointBox) {
         let position = projection.position;
         if position.width() <= 2.0 * self.config.frame_half_width {
@@ -121,8 +121,8 @@ impl Observer {
         grid.traverse(start, end, self.config.separation);
     }
 
-    /// Drops a track in favour of another. Takes the places that only it made, and that were not
-    /// met since, out of the map.
+    /// Drops a track in favour of another. Removes the places that only it made and that were not
+    /// met since.
     pub(super) fn abandon(&mut self, loser: &Track, winner: PlaceId) {
         let lately = loser.history.iter().rev().map(|entry| entry.place);
         let made = lately.take_while(|&place| {

@@ -9,10 +9,10 @@ use tolman_geom::{Interval, PointBox};
 
 use super::Action;
 
-/// What the observer knows of the robot and the world, and which of its parts are at work.
+/// Knowledge of the observer about robot and world, and the choice of its parts.
 ///
 /// The paper gives no numbers but the error of odometry (10 % of the distance), so there is no
-/// `Default`. [`Config::new`] has the values proposed here, each with its reason. Lengths are in
+/// `Default`. [`Config::new`] sets the values proposed here, each with its reason. Lengths are in
 /// metres of the odometry.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -20,7 +20,7 @@ use super::Action;
 pub struct Config {
     /// The robot's control routines.
     pub actions: Vec<ActionKind>,
-    /// δ_sep: minimum distance of two places, m, > 0. (*Geometric constraints*)
+    /// δ_sep: minimum distance of two places, m, > 0 (*Geometric constraints*).
     pub separation: f64,
     /// Minimum distance of two places that look alike, m; at least `separation`. Where views tell
     /// places apart, this lets boxes be wider.
@@ -28,17 +28,17 @@ pub struct Config {
     /// Measure of the distances above.
     #[cfg_attr(feature = "serde", serde(default))]
     pub apart: Apart,
-    /// Maximum distance from one line of the places at both ends of an action that
-    /// [leads](ActionKind::leads) straight, across its axis, m, ≥ 0.
+    /// Maximum distance across the axis of a straight action between the places at its ends, m, ≥
+    /// 0; see [`ActionKind::leads`].
     #[cfg_attr(feature = "serde", serde(default))]
     pub across: f64,
     /// Whether the world may change.
     #[cfg_attr(feature = "serde", serde(default))]
     pub world: WorldKind,
-    /// Maximum distance from the place's point at which the robot ends a move, m, ≥ 0.
+    /// Maximum distance from a place's point at which the robot ends a move, m, ≥ 0.
     pub place_radius: f64,
-    /// Bound of an error of scale that all odometry shares, as a share of the distance, 0 ≤ … < 1.
-    /// It cancels round every loop, so it widens no box and only brings places nearer together: the
+    /// Bound of an error of scale common to all odometry, as a share of the distance, 0 ≤ … < 1. It
+    /// cancels round every cycle, so it widens no box and only brings places nearer together: the
     /// map is in metres of the odometry.
     pub shared_scale: f64,
     /// Whether percepts come with moves.
@@ -50,7 +50,7 @@ pub struct Config {
     pub search: SearchLimits,
     /// Parameters of the paper's *Indexing places*.
     pub indexing: Indexing,
-    /// Parameters of *Matching and updating*.
+    /// Number of hypotheses that are followed, and the rules for dropping them.
     pub matching: Matching,
     /// Number of hypotheses followed, and when one is dropped.
     pub tracks: Tracking,
@@ -69,10 +69,10 @@ pub struct Config {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ActionKind {
-    /// The action that usually leads back. Advice uses it. The map trusts what it saw instead,
-    /// unless the world is [static](WorldKind::Static).
+    /// Action that usually leads back, for advice. The map trusts its observations instead, unless
+    /// the world is [static](WorldKind::Static).
     pub reverse: Option<Action>,
-    /// The axis of the compass along which it leads straight; `None` if its ways may bend.
+    /// Axis of the compass along which it leads straight; `None` if its ways may bend.
     #[cfg_attr(feature = "serde", serde(default))]
     pub leads: Option<CompassAxis>,
 }
@@ -93,16 +93,16 @@ pub enum CompassAxis {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Apart {
-    /// The distance between them is, as in the paper.
+    /// Distance between them, as in the paper.
     #[default]
     Distance,
-    /// They are δ_sep apart along one axis of the compass. True where corridors follow the axes;
-    /// false in halls and slanted corridors.
+    /// Distance along one axis of the compass. It holds where corridors follow the axes, but not in
+    /// halls and slanted corridors.
     Side,
 }
 
 impl Apart {
-    /// Returns the greatest distance of two places whose displacement lies in `offset`, m.
+    /// Returns the greatest distance of two places with a displacement in `offset`, m.
     pub(super) fn most(self, offset: PointBox) -> f64 {
         match self {
             Self::Distance => offset.norm().high(),
@@ -119,18 +119,18 @@ impl Apart {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum WorldKind {
-    /// Doors shut and corridors open: where an action led says little of where it leads.
+    /// Doors shut and corridors open: earlier results of an action say little about its next one.
     #[default]
     Changing,
-    /// An action leads from a place to one place, and its reverse from there back.
+    /// An action always leads from a place to the same place, and its reverse back.
     Static,
 }
 
-/// Whether a part is at work; off for ablations.
+/// Whether a part is active; off for ablations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Use {
-    /// The part is at work.
+    /// The part is active.
     On,
     /// The part is left out.
     Off,
@@ -142,11 +142,11 @@ pub enum Use {
 pub enum Percepts {
     /// Nothing.
     None,
-    /// A signature with every move.
+    /// Every move comes with a signature.
     Signatures(SignatureKind),
 }
 
-/// The form of the signatures, and when two are views of one place.
+/// Form of the signatures, and the rule for two views of one place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SignatureKind {
@@ -169,9 +169,9 @@ pub struct SignatureKind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ViewRotation {
-    /// No: a compass turns them all north.
+    /// Views are not rotated: a compass turns them all north.
     Aligned,
-    /// Yes, by any number of columns.
+    /// Views may be rotated by any number of columns.
     Free,
 }
 
@@ -182,14 +182,14 @@ pub enum ViewRotation {
 pub struct SearchLimits {
     /// Maximum uncertainty of a frame that is reached: the longer side of its box, m, > 0.
     pub width: f64,
-    /// Frames reached at most, ≥ 1.
+    /// Maximum number of frames reached, ≥ 1.
     pub frames: usize,
-    /// Relations followed at most, one by one.
+    /// Maximum number of relations followed in a chain.
     pub depth: u32,
 }
 
 impl SearchLimits {
-    /// None: all that is related is reached.
+    /// No limits: all related frames are reached.
     pub(super) const UNLIMITED: Self = Self {
         width: f64::INFINITY,
         frames: usize::MAX,
@@ -214,7 +214,7 @@ pub struct Indexing {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum PerceptualIndexing {
-    /// None: places are never looked for by their look.
+    /// Views are not indexed: places are never proposed by their looks.
     Off,
     /// Indexes views by their columns.
     Columns,
@@ -229,9 +229,9 @@ pub enum PerceptualIndexing {
 pub enum GeometricIndexing {
     /// None.
     Off,
-    /// Depth-limited search from the track's frame, again each time.
+    /// Depth-limited search from the track's frame, repeated each time.
     Search,
-    /// The set of active frames is carried along from move to move.
+    /// The set of active frames is carried over from move to move.
     ActiveFrames,
 }
 
@@ -247,14 +247,14 @@ pub struct Matching {
     /// The matcher CONTINUE. Without it an expected place needs the evidence of an unexpected one,
     /// except for α-MATCH.
     pub continuation: Use,
-    /// LINK. Without it, unexpected places are noted at best.
+    /// Use of the matcher LINK. Without it, unexpected places are noted at most.
     pub link: Use,
     /// Use of the matcher α-MATCH.
     pub alpha: Use,
     /// Use of the matcher β-MATCH.
     pub beta: Use,
-    /// Number of visits of the old place below which α-MATCH goes before a new place: young boxes
-    /// are the ones that errors spoil.
+    /// Number of visits of the old place below which α-MATCH precedes a new place, because errors
+    /// spoil young boxes.
     pub alpha_visits: u32,
     /// Maximum distance of a place to which β-MATCH snaps, as a share of the distance since the
     /// last CONTINUE, ≥ 0. It is never farther than `separation`.
@@ -279,37 +279,38 @@ pub enum Identity {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Precedence {
-    /// One order for all: CONTINUE, LINK, α, new place, β. The paper's prototype.
+    /// One order for all: CONTINUE, LINK, α, new place, β, as in the paper's prototype.
     Static,
-    /// Decides by what is known of the area and by the track's confidence.
+    /// Order that depends on the knowledge of the area and the track's confidence.
     Dynamic,
 }
 
-/// Number of hypotheses followed, and when one is dropped.
+/// Number of hypotheses that are followed, and the rules for dropping them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Tracking {
-    /// Tracks at most, ≥ 1.
+    /// Maximum number of tracks, ≥ 1.
     pub cap: usize,
     /// Minimum confidence of a track, 0 … 1; below it the track dies.
     pub least_confidence: f64,
     /// Minimum confidence of a confident track, 0 … 1.
     pub high: f64,
-    /// Maximum confidence of a track that is not confident, 0 … `high`.
+    /// Maximum confidence of an unconfident track, 0 … `high`.
     pub low: f64,
     /// Number of matches that a history holds.
     pub history: usize,
 }
 
-/// Limits at which links and places count as hallucinations.
+/// Limits at which links and places count as transient: as hallucinations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Transients {
     /// Whether they are elided.
     pub elision: Use,
-    /// Share of expectations, 0 … 1. What is met in fewer of them, with 99 % certainty, is elided.
+    /// Minimum share of expectations that are met, 0 … 1. A link or place below it, with 99 %
+    /// certainty, is elided.
     pub rate: f64,
     /// Factor by which older counts fade with each expectation, in (0, 1]; at 1 nothing is
     /// forgotten.
@@ -331,22 +332,22 @@ pub struct Restructuring {
     pub local_split: Use,
     /// Non-local path constraints on merging.
     pub non_local_merge: Use,
-    /// W: the weight of an estim that counts.
+    /// W: minimum weight of an estim that counts.
     pub weight: f64,
     /// Q: ratio of the weights of two estims, larger to smaller, below which they split a place.
     pub ratio: f64,
-    /// φ: share of the first estim's weight below which the weight of every other estim of the
-    /// union has to be for places to merge.
+    /// φ: share of the first estim's weight, in the union of two places. They merge if every other
+    /// estim has less.
     pub minority: f64,
-    /// Share of common links that proposes a merge; below the second, it is rejected.
+    /// Share of common links that proposes a merge, and share below which a merge is rejected.
     pub links: [f64; 2],
-    /// Number of visits that links have to rest on.
+    /// Number of visits on which links have to rest.
     pub visits: u32,
-    /// h: consistent histories that propose a merge.
+    /// h: number of consistent histories that propose a merge.
     pub histories: usize,
     /// Merging by looks, beyond the paper.
     pub look_merge: Use,
-    /// Chance of a wrong merge by looks, at most, 0 < … < 1.
+    /// Maximum probability of a wrong merge by looks, 0 < … < 1.
     pub look_error: f64,
 }
 
@@ -358,14 +359,13 @@ pub enum GeometricMerge {
     Off,
     /// The paper's rule: the union of their estims has one mode.
     Estims,
-    /// The box of their difference is too narrow to hold two places. Common links and histories
-    /// that fit both are then no reason by themselves: in a spiral whose places look alike they
-    /// merged two places wrongly.
+    /// The box of their difference is too narrow to hold two places. Common links and histories do
+    /// not suffice then: in a spiral whose places look alike they merged two places wrongly.
     Narrow,
 }
 
 impl GeometricMerge {
-    /// Returns whether path constraints alone are a ground for a merge.
+    /// Returns whether path constraints alone justify a merge.
     pub(super) const fn trusts_paths(self) -> bool {
         !matches!(self, Self::Narrow)
     }
@@ -376,33 +376,33 @@ impl GeometricMerge {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Opportunities {
-    /// Going where no robot has gone before.
+    /// Advice to go where the robot has not been.
     pub unknown: Use,
-    /// Use of *priming the pump*.
+    /// Advice for *priming the pump*.
     pub priming: Use,
-    /// Going back and forth on a new link.
+    /// Advice to go back and forth on a new link.
     pub shuttle: Use,
-    /// Walking round a cycle again whose ends may be one place.
+    /// Advice to walk again round a cycle whose ends may be one place.
     pub close_loop: Use,
-    /// Number of traversals after which a link needs no shuttle.
+    /// Number of traversals after which a link needs no shuttling.
     pub traversals: u32,
-    /// Longest way to where a script begins, moves.
+    /// Maximum length of the way to the beginning of a script, moves.
     pub reach: u32,
 }
 
-/// Length of the journal.
+/// Moves that the journal keeps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum JournalLength {
     /// Nothing is kept.
     Off,
-    /// All moves from the first on.
+    /// All moves since the first.
     All,
 }
 
 impl Config {
-    /// Returns the values proposed here, for places at least `separation` metres apart, that all
-    /// look the same.
+    /// Returns the values proposed here, for places at least `separation` apart, m, that all look
+    /// the same.
     #[must_use]
     pub fn new(actions: Vec<ActionKind>, separation: f64) -> Self {
         Self {
@@ -491,8 +491,8 @@ impl Config {
         reverses.map(kind).into()
     }
 
-    /// Returns the same actions where each follows a straight corridor along an axis of the
-    /// compass.
+    /// Returns the actions of [`compass_actions`](Self::compass_actions), each along a straight
+    /// corridor on an axis of the compass.
     #[must_use]
     pub fn corridor_actions() -> Vec<ActionKind> {
         let axes = [CompassAxis::NorthSouth, CompassAxis::EastWest];
@@ -503,12 +503,12 @@ impl Config {
         actions
     }
 
-    /// Returns the axis along which an action leads straight, if it does.
+    /// Returns the axis along which an action leads straight, or `None` if its ways may bend.
     pub(super) fn leads(&self, action: Action) -> Option<CompassAxis> {
         self.actions.get(action.0 as usize)?.leads
     }
 
-    /// Returns the action that usually leads back, if one does.
+    /// Returns the action that usually leads back, or `None` if there is none.
     pub(super) fn reverse(&self, action: Action) -> Option<Action> {
         self.actions.get(action.0 as usize)?.reverse
     }
@@ -523,7 +523,7 @@ impl Config {
         self.alike_separation * (1.0 - self.shared_scale)
     }
 
-    /// Returns whether the fields are in their ranges.
+    /// Checks that the fields are in their ranges.
     ///
     /// # Errors
     /// [`DiktiometryConfigError`] names the first field that is not.
@@ -569,7 +569,7 @@ impl Config {
 }
 
 impl SignatureKind {
-    /// Returns how many columns have to agree, ≥ 1: of 8 at a share of 0.6, 5.
+    /// Returns the number of columns that have to agree, ≥ 1: of 8 at a share of 0.6, 5.
     pub(super) fn enough(&self) -> usize {
         let enough = libm::ceil(self.share * self.columns as f64 - 1e-9) as usize;
         enough.max(1)
@@ -651,25 +651,25 @@ pub enum DiktiometryConfigError {
     /// A number is out of its range or not finite.
     #[error("`{field}` is {value}; give a finite number{}{}", above(.least), below(.most))]
     OutOfRange {
-        /// The field.
+        /// Name of the field.
         field: &'static str,
-        /// Its value.
+        /// Value that was given.
         value: f64,
         /// Lower bound of the field.
         least: Bound<f64>,
         /// Upper bound of the field.
         most: Bound<f64>,
     },
-    /// Views have too few columns for triangles of edges.
+    /// The views have too few columns for triangles of edges.
     #[error("views of {columns} columns have no triangles; give 3 or more, or index `Columns`")]
     NoTriangles {
-        /// Number of columns that views have.
+        /// Number of columns of the views.
         columns: usize,
     },
     /// A count is 0.
     #[error("`{field}` is 0; give at least 1")]
     Zero {
-        /// The field.
+        /// Name of the field.
         field: &'static str,
     },
 }

@@ -1,9 +1,9 @@
 use super::Expected;
 
-/// Constancy of something that may come and go, such as a door that is shut and opened. Holds when
-/// it was last looked for, whether it was there, and how often that had changed.
+/// Constancy of something that may come and go, such as a door that is shut and opened. Records
+/// when it was last looked for, whether it was there, and how often that had changed.
 ///
-/// Beyond the paper, whose counts say how often a link works, but not whether it does now.
+/// Beyond the paper, whose counts say how often a link works, but not whether it works now.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Constancy {
     seen: Option<Seen>,
@@ -36,7 +36,7 @@ impl Constancy {
         }
     }
 
-    /// Takes in that it was looked for, with the outcome.
+    /// Records that it was looked for, with the outcome.
     pub(super) fn look(&mut self, outcome: Expected, now: u64) {
         let first = Seen {
             first: now,
@@ -51,7 +51,7 @@ impl Constancy {
         seen.last = now;
     }
 
-    /// Takes in the observations of another one that turned out to be the same.
+    /// Adds the observations of another thing that turned out to be the same.
     pub(super) fn join(&mut self, other: Self) {
         self.seen = match (self.seen, other.seen) {
             (Some(one), Some(other)) => {

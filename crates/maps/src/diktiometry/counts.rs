@@ -1,5 +1,5 @@
-/// Number of times that something was expected, and how often it was met. Both fade: each
-/// expectation makes earlier ones weigh less by a factor, so that the world may change.
+/// Number of times that something was expected, and how often it was met. Both fade, since the
+/// world may change: each expectation makes earlier ones weigh less by a factor.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Counts {
     expected: f64,
@@ -42,7 +42,7 @@ impl Counts {
         self.met = self.met * fading + met;
     }
 
-    /// Adds the counts of another one that turned out to be the same.
+    /// Adds the counts of another thing that turned out to be the same.
     pub(super) fn join(&mut self, other: Self) {
         self.expected += other.expected;
         self.met += other.met;

@@ -1,11 +1,11 @@
-//! "Local grid-based methods to maintain estimates of how well areas have been visited or
-//! traversed"; the matchers' order needs traversals only.
+//! Grids of traversals: "Local grid-based methods to maintain estimates of how well areas have been
+//! visited or traversed". The matchers' order needs only traversals.
 
 use alloc::collections::BTreeMap;
 
 use tolman_geom::{Point, Vector, floor_index};
 
-/// Record of traversals of the area around a frame's origin, in square cells; the caller gives
+/// Record of traversals of the area around a frame's origin, in square cells. The caller gives
 /// their side.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct CoverageGrid {
@@ -29,8 +29,8 @@ impl CoverageGrid {
         });
     }
 
-    /// Returns the number of times that the way between two points was gone, in this direction: the
-    /// least over the cells it crosses.
+    /// Returns the number of times that the robot went between two points in this direction: the
+    /// least over the cells on the way.
     #[must_use]
     pub fn traversals(&self, from: Point, to: Point, cell: f64) -> u32 {
         let heading = quadrant(to - from);
@@ -57,8 +57,8 @@ fn quadrant(way: Vector) -> usize {
     }
 }
 
-/// Visits the cells along a straight way, by samples twice a cell. At most 64 samples are taken, so
-/// that the cost of a long way is bounded.
+/// Visits the cells along a straight way. It takes two samples per cell and at most 64 in all, so
+/// that the cost is bounded.
 fn crossed(from: Point, to: Point, cell: f64, mut visit: impl FnMut(CellNumber)) {
     let way = to - from;
     let samples = (libm::ceil(2.0 * way.norm() / cell) as u32).clamp(1, 64);

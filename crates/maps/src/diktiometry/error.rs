@@ -38,11 +38,11 @@ pub enum ObservedMoveError {
     PerceptSize {
         /// Number of rows of the percept.
         rows: usize,
-        /// Its columns.
+        /// Number of columns of the percept.
         columns: usize,
-        /// Number of rows of the configuration, 0 if it has no percepts.
+        /// Number of rows in the configuration, 0 without percepts.
         expected_rows: usize,
-        /// Its columns, 0 if it has no percepts.
+        /// Number of columns in the configuration, 0 without percepts.
         expected_columns: usize,
     },
     /// The configuration has percepts, and the move brings none.

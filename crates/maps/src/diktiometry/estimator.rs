@@ -1,4 +1,4 @@
-//! The estimator: "the core of the estimator is the loop between projection and matching".
+//! Moves the tracks: "the core of the estimator is the loop between projection and matching".
 
 use alloc::vec::Vec;
 
@@ -11,8 +11,8 @@ use super::{
     expected, moved, plies, search,
 };
 
-/// Whether a track may change the map. Only the best may, so that a dying hypothesis does not
-/// damage it; in the paper all do.
+/// Whether a track may change the map. Only the best track may, so that a dying hypothesis does not
+/// damage the map; in the paper all do.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Rank {
     Best,
@@ -21,7 +21,7 @@ pub(super) enum Rank {
 
 impl Observer {
     /// Projects a track, finds what it matches, and lets its best match change the map if it is the
-    /// best track. Every maximal matcher carries the track on.
+    /// best track. Every maximal matcher continues the track.
     pub(super) fn advance(
         &mut self,
         track: &Track,
@@ -78,14 +78,14 @@ impl Observer {
         }
     }
 
-    /// Returns what is expected most of an action.
+    /// Returns the likeliest result of an action, or `None` if the map has no link for it.
     fn likeliest(&self, from: PlaceId, action: Action) -> Option<Predicted> {
         let best = self.map.paths.likeliest(from, action)?;
         let mut all = self.predict(from, action).into_iter();
         all.find(|one| one.place == self.map.link(best).to)
     }
 
-    /// Returns what a track expected and did not meet.
+    /// Returns the contradictions between a track's expectation and what it met.
     fn contradictions(
         &self,
         track: TrackId,
@@ -126,9 +126,9 @@ impl Observer {
         TrackId(self.born - 1)
     }
 
-    /// Adds tracks at all places that look like the robot's, however far away, as it is not where
-    /// it was expected. "Good candidate places can be found based on perceptual cues, even if they
-    /// are geometrically distant."
+    /// Adds tracks at all places that look like the robot's, however far away, since the robot is
+    /// not at the expected place. "Good candidate places can be found based on perceptual cues,
+    /// even if they are geometrically distant."
     fn suppose(
         &mut self,
         track: &Track,
@@ -151,7 +151,7 @@ impl Observer {
         }
     }
 
-    /// Returns the indexer and the matching engine for one track.
+    /// Indexes and matches candidates for one track, and returns the choice.
     fn matches(&self, track: &Track, step: &ObservedMove, projection: &Projection) -> Choice {
         let situation = Situation {
             map: &self.map,
@@ -183,7 +183,7 @@ impl Observer {
         plies(&self.map, &reached, projection)
     }
 
-    /// Returns how often the way just gone was gone before.
+    /// Returns the number of times that the robot had gone the last way before.
     fn traversals(&self, projection: &Projection) -> u32 {
         let [from, to] = self.ends(projection);
         let grid = &self.map.frame(projection.frame).grid;
@@ -198,8 +198,8 @@ impl Observer {
         }
     }
 
-    /// Returns the tracks that live on, the best first. Of those at one place only the most trusted
-    /// stays. Tracks that are trusted too little go, and so do those beyond the maximum number.
+    /// Returns the surviving tracks, the best first. Of tracks at one place only the most trusted
+    /// survives. Tracks below the minimum confidence or beyond the maximum number are dropped.
     pub(super) fn select(&mut self, mut tracks: Vec<Track>) -> Vec<Track> {
         // The best track stays the best until it has lost confidence and another has won it.
         let tracking = self.config.tracks;
@@ -268,8 +268,8 @@ impl Observer {
     }
 }
 
-/// Returns the odometry of a move, if nothing says that it is wrong or that the robot was carried
-/// off.
+/// Returns the odometry of a move, unbounded if there is a sign that it is wrong or that the robot
+/// was carried off.
 pub(super) fn trusted_odometry(step: &ObservedMove, choice: &Choice, matcher: Matcher) -> PointBox {
     let plain = matches!(
         matcher,
@@ -282,12 +282,12 @@ pub(super) fn trusted_odometry(step: &ObservedMove, choice: &Choice, matcher: Ma
     }
 }
 
-/// The confidence of a track that begins because a place looks like what the robot sees.
+/// Confidence of a track that begins because a place looks like the robot's view.
 const SUPPOSED: f64 = 0.5;
 
 /// Returns the confidence in a track after a match. A CONTINUE raises it; a posited error or a
-/// strange look lowers it. A new place posits an error if another one was expected, or if another
-/// track needs none.
+/// strange look lowers it. A new place posits an error if another place was expected, or if another
+/// track needs no new place.
 fn confidence_after(confidence: f64, matcher: Matcher, choice: &Choice, rivals: bool) -> f64 {
     match matcher {
         _ if choice.look == Similarity::Unlike => 0.7 * confidence,

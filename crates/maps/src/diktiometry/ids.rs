@@ -1,16 +1,14 @@
-/// A place of the path graph. Ids are given in the order places are made, and never given again.
+/// A place of the path graph. Ids are given in order of creation and never reused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PlaceId(pub u32);
 
-/// An action link of the path graph. Ids are given in the order links are made, and never given
-/// again.
+/// An action link of the path graph. Ids are given in order of creation and never reused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LinkId(pub u32);
 
-/// A local frame of the reference graph. Ids are given in the order frames are made, and never
-/// given again.
+/// A local frame of the reference graph. Ids are given in order of creation and never reused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FrameId(pub u32);

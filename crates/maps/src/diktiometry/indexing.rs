@@ -1,4 +1,4 @@
-//! "Indexing, to find likely candidate states to feed to the matcher": streams of sets of
+//! Indexing: "to find likely candidate states to feed to the matcher". It gives streams of sets of
 //! candidates, the best set first.
 
 mod active_frames;
@@ -50,8 +50,8 @@ impl Candidate {
         self.offset.contains(Point::origin())
     }
 
-    /// Returns whether the robot can be at no other place than this, if all others are
-    /// `least_distance` `apart` from it.
+    /// Returns whether the robot can be at no other place, if all others are at least
+    /// `least_distance` away, measured by `apart`.
     pub(super) fn is_certain(&self, apart: Apart, least_distance: f64) -> bool {
         self.is_possible() && apart.most(self.offset) < least_distance
     }

@@ -1,4 +1,5 @@
-//! The journal: all input of the robot, so that what followed from it can be undone and repeated.
+//! Keeps the journal: all input of the observer, so that its consequences can be undone and
+//! repeated.
 
 use alloc::vec::Vec;
 
@@ -15,13 +16,13 @@ use super::{
 pub struct Journal {
     /// The first place.
     pub start: FirstPlace,
-    /// The moves.
+    /// Moves, in order.
     pub moves: Vec<ObservedMove>,
     /// Pairs of places that are known to be different.
     pub distinctions: Vec<Distinction>,
 }
 
-/// Two places are known to be different, whatever the restructurers propose.
+/// Two places known to be different, whatever the restructurers propose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Distinction {
@@ -35,11 +36,11 @@ pub struct Distinction {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum UndoError {
-    /// The journal is off.
+    /// The observer keeps no journal.
     #[error("no journal is kept; set `journal` of the configuration to `All`")]
     NoJournal,
-    /// There are not that many moves.
-    #[error("{asked} moves cannot be undone; the journal has only {moves}")]
+    /// The journal has fewer moves.
+    #[error("{asked} moves cannot be undone; the journal has only {moves}; undo fewer")]
     TooFar {
         /// Number of moves that should be undone.
         asked: u64,
@@ -89,8 +90,8 @@ impl Observer {
         Ok(observer)
     }
 
-    /// Takes the last moves back: everything is as it was before them, bit for bit. O(moves), since
-    /// the earlier ones are replayed.
+    /// Undoes the last moves: everything is as it was before them, bit for bit. O(moves), since the
+    /// earlier ones are replayed.
     ///
     /// # Errors
     /// [`UndoError`] if no journal is kept or it does not have that many moves.

@@ -1,5 +1,4 @@
-//! What new places teach about looks, and which places are noted because they look alike. Beyond
-//! the paper.
+//! Learns about looks from new places, and notes places that look alike. Beyond the paper.
 
 use alloc::vec::Vec;
 
@@ -12,8 +11,8 @@ impl Observer {
     /// Learns from a new place: which places around it are certainly different, and whether they
     /// look like it.
     ///
-    /// Amortized cost: one search per place if looks are used. Once looks tell more, the notes are
-    /// weighed again.
+    /// Amortized cost: one search per place if looks are used. The notes are weighed again once
+    /// fewer agreeing looks suffice.
     pub(super) fn learn_looks(&mut self, place: PlaceId, view: &Signature, hints: &mut Hints) {
         if self.config.restructuring.look_merge == Use::Off {
             return;
@@ -64,7 +63,7 @@ impl Observer {
         }
     }
 
-    /// Records the places that look like a place, except those that are certainly not it.
+    /// Notes the places that look like a place, except those that are certainly different.
     fn note_alike(&mut self, place: PlaceId, alike: &[PlaceId], apart: &[PlaceId]) {
         for &other in alike {
             if other != place && apart.binary_search(&other).is_err() {
@@ -74,7 +73,7 @@ impl Observer {
     }
 }
 
-/// Returns the places around a place that are different from it for certain, by id.
+/// Returns the places near a place that are certainly different from it, by id.
 fn apart(map: &Diktiometry, place: PlaceId, config: &Config) -> Vec<PlaceId> {
     let here = map.place(place);
     let reached = search(&map.reference, here.frame, &config.search);

@@ -4,7 +4,7 @@
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Looks {
-    /// Number of looks that were unlike all that were known when they were met.
+    /// Number of looks that were unlike all looks known before.
     pub kinds: u32,
     /// Number of pairs of places that geometry has told apart.
     pub different: u32,
@@ -17,21 +17,21 @@ pub struct Looks {
     /// Id below which all places were compared with those that look like them.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) noted: usize,
-    /// Minimum number of kinds of looks so far that is enough for a merge where geometry knows
+    /// Minimum number of agreeing looks so far that suffices for a merge where geometry knows
     /// nothing.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) least_wanted: Option<usize>,
 }
 
 impl Looks {
-    /// Returns the number of kinds of looks that have to agree, such that a coincidence of all is
-    /// less likely than `error`. `None` if there are not as many kinds. O(kinds²).
+    /// Returns the number of kinds of looks that have to agree for a coincidence to be less likely
+    /// than `error`. `None` if there are not as many kinds. O(kinds²).
     ///
     /// Let p be the rate at which two places look alike. If the looks of a place are independent of
     /// its neighbours', p has a beta distribution by the pairs seen (Jeffreys' prior). The
     /// probability of k coincidences in a row is then the mean of pᵏ. Where looks repeat, room for
-    /// room, places that deceive have neighbours that deceive. So the probability is at least the
-    /// power of the rate seen there.
+    /// room, places that look alike have neighbours that look alike. So the probability is at least
+    /// the power of the rate observed there.
     ///
     /// A true place may be many places of a map that is not yet folded, whose pairs are not
     /// independent evidence. All pairs therefore count for no more than the kinds of looks allow.
@@ -59,7 +59,7 @@ impl Looks {
         by_chance.max(by_rule)
     }
 
-    /// Returns all that was counted.
+    /// Returns all counts.
     pub(super) fn counts(&self) -> [u64; 5] {
         let Self {
             kinds,
@@ -74,8 +74,8 @@ impl Looks {
 
     /// Counts two places that geometry has told apart.
     ///
-    /// `neighbours`, used if the two look alike, says how the places look that the same action
-    /// leads from or to, if any are known.
+    /// `neighbours` is used if the two look alike. It compares the looks of their neighbours along
+    /// the same action, if any are known.
     pub(super) fn count(&mut self, look: Similarity, neighbours: Option<Similarity>) {
         self.different = self.different.saturating_add(1);
         if look == Similarity::Unlike {

@@ -14,7 +14,7 @@ use super::{
 pub struct Diktiometry {
     /// Places and actions.
     pub paths: PathGraph,
-    /// Frames and what is known of where they lie.
+    /// Frames and the relations between them.
     pub reference: ReferenceGraph,
     /// Reliability of looks for telling places apart.
     pub looks: Looks,
@@ -23,7 +23,7 @@ pub struct Diktiometry {
 /// Position at which a place is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DrawnPlace {
-    /// The place.
+    /// Id of the place.
     pub place: PlaceId,
     /// Bounds of its position, m; it is drawn in the middle.
     pub bounds: PointBox,
@@ -34,7 +34,7 @@ pub struct DrawnPlace {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Flaw {
-    /// A link that stands is not in the list of a place at its end, or that place is gone.
+    /// A standing link is missing from the list of a place at its end, or that place is gone.
     LooseLink(LinkId),
     /// Two links bear the same action between the same places.
     DoubleLink(LinkId),
@@ -42,9 +42,9 @@ pub enum Flaw {
     StrangeLink(PlaceId),
     /// A place is not listed by its frame, or listed where it is not.
     LostPlace(PlaceId),
-    /// A position or an envelope is unbounded, or the envelope does not hold the position.
+    /// A relation differs between its two sides, or is not in order.
     BadBox(PlaceId),
-    /// A relation is not known from both sides alike, or not sorted.
+    /// A link has an action beyond those of the configuration.
     OneSided(FrameId),
     /// An action beyond those of the configuration.
     StrangeAction(LinkId),
@@ -70,15 +70,15 @@ impl Diktiometry {
         Some(there.position + to - from)
     }
 
-    /// Returns where `to` lies as seen from `from` by the relation between their frames alone, m,
-    /// or `None` if they are not related.
+    /// Returns the position of `to` relative to `from` by the relation between their frames alone,
+    /// m, or `None` if they are not related.
     pub(super) fn related(&self, from: PlaceId, to: PlaceId) -> Option<PointBox> {
         let [(start, from), (end, to)] = [from, to].map(|place| self.site(place));
         Some(self.reference.known(start, end)? + to - from)
     }
 
     /// Returns all places that can be reached from `origin` in the reference graph, by id, with
-    /// positions relative to `origin` for drawing. O(frames · degree · log frames + places · log
+    /// positions for drawing relative to `origin`. O(frames · degree · log frames + places · log
     /// places).
     #[must_use]
     pub fn layout(&self, origin: PlaceId) -> Vec<DrawnPlace> {
@@ -125,7 +125,7 @@ impl Diktiometry {
         &mut self.reference.frames[id.index()]
     }
 
-    /// Returns the reference link of a place: its frame, and where it is there, m.
+    /// Returns the reference link of a place: its frame, and its position there, m.
     pub(super) fn site(&self, place: PlaceId) -> (FrameId, PointBox) {
         let place = self.place(place);
         (place.frame, place.position)

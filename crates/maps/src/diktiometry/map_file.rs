@@ -5,8 +5,8 @@ use thiserror::Error;
 
 use super::{Config, Journal, JournalError, Observer};
 
-/// Contents of an observer's file: the journal, from which all follows bit for bit. Works with any
-/// format of serde's.
+/// Contents of an observer's file: the journal, from which everything follows bit for bit. Works
+/// with any format of serde's.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct MapFile {
     config: Config,
@@ -25,7 +25,7 @@ pub enum MapFileError {
     /// Moves are missing.
     #[error("the journal is cut off: it has {found} of {expected} moves; copy the file again")]
     Truncated {
-        /// Number the file promises.
+        /// Number of moves that the file promises.
         expected: usize,
         /// Number found.
         found: usize,
@@ -49,7 +49,7 @@ impl MapFile {
         })
     }
 
-    /// Returns the observer, as it was. O(moves).
+    /// Returns the observer as it was saved. O(moves).
     ///
     /// # Errors
     /// [`MapFileError`] if the journal was cut off, or does not fit the configuration.

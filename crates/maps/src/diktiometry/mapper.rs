@@ -55,7 +55,7 @@ impl Mapper for Observer {
     }
 
     /// Returns the probability that the map is right, by its [`SelfCheck`](super::SelfCheck).
-    /// `None` by the paper's rule of matching, which does not ask.
+    /// `None` by the paper's rule of matching, which does not estimate it.
     fn certainty(&self) -> Option<f64> {
         match self.config().matching.identity {
             Identity::Certain => Some(self.self_check().certainty()),

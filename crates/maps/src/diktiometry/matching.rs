@@ -1,5 +1,5 @@
-//! Matchers: "each indicating a particular state of affairs, including mapping errors", and the
-//! order among them.
+//! Matches places: matchers "each indicating a particular state of affairs, including mapping
+//! errors", and the order among them.
 
 mod engine;
 mod matcher;

@@ -1,4 +1,4 @@
-//! Certificates: evidence that two nodes of the map are one place, for others to check.
+//! Issues and checks certificates: evidence that two nodes of the map are one place.
 //!
 //! Beyond the paper. A merge rests on one of two grounds, and on the assumptions about the robot
 //! and the world in [`Config`]:
@@ -11,7 +11,7 @@
 //!   actions lead to. It states the probability of being wrong.
 //!
 //! A proof by bounds may lead through places that are one by looks. It is then no surer than these,
-//! and says so ([`MergeCertificate::rests_on_looks`]).
+//! and states so ([`MergeCertificate::rests_on_looks`]).
 //!
 //! In a [static](super::WorldKind::Static) world an action leads from a place to one place and its
 //! reverse from there back. What follows from that is known without a route. A move along a way
@@ -42,9 +42,9 @@ use identities::Identities;
 /// Maximum number of moves of a span.
 const LONGEST: usize = 5;
 
-/// A claim that the robot was at one place at two visits, and why.
+/// A claim that the robot was at one place at two visits, with its evidence.
 ///
-/// Visit 0 is the start, visit k where move k of the journal ended.
+/// Visit 0 is the start. Visit k is at the end of move k of the journal.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct MergeCertificate {
@@ -52,7 +52,8 @@ pub struct MergeCertificate {
     pub visits: [usize; 2],
     /// Ground of the merge: bounds or looks.
     pub proof: MergeProof,
-    /// Whether it is by looks, or leads through places that are one by an earlier one that is.
+    /// Whether the proof is by looks, or leads through places that an earlier certificate merges by
+    /// looks.
     pub rests_on_looks: bool,
     /// Checksum of all fields, which tells a changed certificate from a wrong one.
     pub seal: u64,
@@ -63,20 +64,20 @@ pub struct MergeCertificate {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum MergeProof {
     /// Routes from the first visit's place to the second's. The displacement lies in the box of
-    /// each route, and the intersection has no room for two places. A route without spans stays
-    /// where it is: the two are one by the ways of a static world alone.
+    /// each route, and the intersection has no room for two places. A route without spans stays at
+    /// its place: the two are one by the ways of a static world alone.
     Bounds(Vec<Vec<JournalSpan>>),
     /// Looks agree along the same actions.
     Looks(LookEvidence),
 }
 
-/// Moves of the journal that follow each other, as a part of a route.
+/// Successive moves of the journal, as a part of a route.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct JournalSpan {
-    /// The visit where it begins.
+    /// Visit at which it begins.
     pub begin: usize,
-    /// The visit where it ends. A span that ends before it begins is gone backward.
+    /// Visit at which it ends. A span that ends before it begins is followed backward.
     pub end: usize,
 }
 
@@ -93,19 +94,18 @@ pub struct LookEvidence {
     pub chance: f64,
 }
 
-/// Two visits that look alike, and how the robot comes there.
+/// Two visits that look alike, and the action that leads there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct LookPair {
-    /// The visits.
+    /// Numbers of the two visits.
     pub visits: [usize; 2],
-    /// The number of the earlier pair from whose places one action leads to these, and the action;
+    /// Number of the earlier pair from whose places one action leads to these, with the action.
     /// `None` for the first pair.
     pub after: Option<(usize, Action)>,
 }
 
-/// Returns whether each route leads from one visit to another through what is known to be one
-/// place.
+/// Returns whether each route joins two visits, with only known identities between its spans.
 fn connect(
     [one, other]: [usize; 2],
     routes: &[Vec<JournalSpan>],
@@ -127,8 +127,8 @@ impl JournalSpan {
         }
     }
 
-    /// Returns the box of the displacement between the places at its ends, m. `None` if such moves
-    /// do not exist, are too many, or one of them was blocked.
+    /// Returns the box of the displacement between the ends of the span, m. `None` if such moves do
+    /// not exist, are too many, or one of them was blocked.
     fn displacement(self, moves: &[ObservedMove], config: &Config) -> Option<PointBox> {
         if self.end < self.begin {
             return Some(-self.reversed().displacement(moves, config)?);

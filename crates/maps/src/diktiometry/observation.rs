@@ -21,7 +21,7 @@ pub struct ObservedMove {
     pub odometry: PoseBox,
     /// View of the place where the move ended.
     pub percept: Option<Signature>,
-    /// Actions that could be tried there.
+    /// Actions that the robot could try there.
     pub exits: Exits,
     /// Outcome of the move.
     pub outcome: MoveOutcome,
@@ -33,16 +33,16 @@ pub struct ObservedMove {
 pub enum MoveOutcome {
     /// The robot came to a distinctive place.
     Arrived,
-    /// The action was not possible: the robot is where it was.
+    /// The action was not possible: the robot has not moved.
     Blocked,
 }
 
-/// Actions that the robot sees it could try. Used for plans, advice and the counts of links, never
-/// to recognize a place.
+/// Actions that the robot believes it can try. Used for plans, advice and the counts of links,
+/// never to recognize a place.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Exits {
-    /// The robot cannot tell: any action may be worth a try.
+    /// The robot cannot tell: any action may be possible.
     #[default]
     Unknown,
     /// These.
@@ -50,7 +50,7 @@ pub enum Exits {
 }
 
 impl Exits {
-    /// Returns whether an action may be worth a try.
+    /// Returns whether an action may be possible.
     #[must_use]
     pub fn allow(&self, action: Action) -> bool {
         match self {

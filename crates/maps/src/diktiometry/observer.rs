@@ -10,7 +10,7 @@ use super::{
     deposit, remember, restructure, steps_along,
 };
 
-/// The adaptive state-space model: an observer of any robot's moves, which drives none.
+/// The adaptive state-space model: it observes any robot's moves and drives none.
 ///
 /// Each [`step`](Self::step) is the loop of the paper's figure 1. The *estimator* (projector,
 /// indexer, matching engine) finds where every track is; the *adapter* (updater, restructurer)
@@ -23,16 +23,16 @@ pub struct Observer {
     pub(super) views: ViewIndex,
     /// The best first.
     pub(super) tracks: Vec<Track>,
-    /// Whether other tracks than the best were alive before the last move.
+    /// Whether tracks beside the best were alive before the last move.
     pub(super) rivals: bool,
     /// Tracks so far.
     pub(super) born: u32,
-    /// Its moves are kept if the configuration says so.
+    /// Journal, which keeps the moves if the configuration says so.
     pub(super) journal: Journal,
 }
 
 impl Observer {
-    /// Returns an observer of a robot that stands at a place: the map is that place.
+    /// Returns an observer of a robot at a place; the map is that place alone.
     ///
     /// # Errors
     /// [`StartError`] if the configuration is out of its bounds or the first percept does not fit
@@ -68,7 +68,7 @@ impl Observer {
         })
     }
 
-    /// Returns the map as it is.
+    /// Returns the map in its present state.
     #[must_use]
     pub const fn map(&self) -> &Diktiometry {
         &self.map
@@ -80,13 +80,13 @@ impl Observer {
         &self.config
     }
 
-    /// Returns the number of moves taken in so far.
+    /// Returns the number of moves so far.
     #[must_use]
     pub const fn moves(&self) -> u64 {
         self.map.paths.now
     }
 
-    /// Returns the estimate: all tracks, the best first; never none.
+    /// Returns the estimate: all tracks, the best first. There is always at least one.
     #[must_use]
     pub fn tracks(&self) -> &[Track] {
         &self.tracks
@@ -98,8 +98,8 @@ impl Observer {
         self.tracks[0].place
     }
 
-    /// Returns the links by which an action leads from a place, by id. Empty if it was never done
-    /// there or the place is not known.
+    /// Returns the links by which an action leads from a place, by id. Empty if the action was
+    /// never done there or the place is not known.
     #[must_use]
     pub fn predict(&self, place: PlaceId, action: Action) -> Vec<Predicted> {
         let Some(place) = self.map.paths.resolve(place) else {
@@ -118,7 +118,7 @@ impl Observer {
             .collect()
     }
 
-    /// Returns the actions from one place to another that are likeliest to lead there and few. They
+    /// Returns the plan from one place to another: few actions that are likely to lead there. They
     /// follow links that probably work now ([`PathGraph::likely`](super::PathGraph::likely)). In a
     /// world that never changed they are the fewest. Empty if both are one place, `None` if no way
     /// is known. O(places + links · (degree + log links)).
@@ -169,7 +169,7 @@ impl Observer {
         check_exits(&self.config, &step.exits)
     }
 
-    /// Takes in a move that was blocked: the robot is where it was, and the action leads nowhere.
+    /// Takes in a blocked move: the robot has not moved, and the action leads nowhere.
     fn blocked(&mut self, step: &ObservedMove, report: &mut StepReport) {
         let here = self.place();
         self.block(here, step.action);

@@ -1,4 +1,4 @@
-//! Opportunistic mapping: the map advises "the planner of actions that the mapper would find
+//! Advises actions that would help the map: "the planner of actions that the mapper would find
 //! useful". Nothing depends on whether they are done.
 
 use alloc::vec;
@@ -15,9 +15,9 @@ use super::{Action, Link, Observer, PlaceId, PlanStep, Use};
 pub struct Opportunity {
     /// Its purpose.
     pub kind: OpportunityKind,
-    /// The place it is about.
+    /// Place that the script is about.
     pub place: PlaceId,
-    /// The actions, from where the best track is now; never empty.
+    /// Actions from the place of the best track; never empty.
     pub script: Vec<Action>,
     /// Expected gain in links: 1 for a new one, less for better knowledge of a known one.
     pub gain: f64,
@@ -25,11 +25,11 @@ pub struct Opportunity {
     pub cost: f64,
 }
 
-/// Gain of a new link at a place that may be another one, which may have the link already. It is
-/// less than that of a few walks round the loop that would tell.
+/// Gain of a new link at a place that may equal another, which may have the link already. It is
+/// less than that of a few walks round the cycle that would decide.
 const IN_DOUBT: f64 = 0.03;
 
-/// The kinds of scripts.
+/// Kind of script.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum OpportunityKind {
     /// Exploration, "going where no robot has gone before". The script leads to the nearest action
@@ -38,14 +38,14 @@ pub enum OpportunityKind {
     /// Exploration, "priming the pump": "if you know your current position accurately and you are
     /// near a place with high positional uncertainty, go to that place".
     PrimePump,
-    /// Experimentation: back and forth on a link that was hardly gone yet.
+    /// Experimentation: go back and forth on a link that was hardly used so far.
     Shuttle,
-    /// Experimentation: along the way between two places that may be one, until its box tells.
+    /// Experimentation: go along the way between two places that may be one, until its box decides.
     CloseLoop,
 }
 
 impl Opportunity {
-    /// Returns the gain per move; scripts are offered in this order.
+    /// Returns the gain per move, by which scripts are ordered.
     #[must_use]
     pub fn worth(&self) -> f64 {
         self.gain / self.cost
@@ -65,8 +65,9 @@ impl OpportunityKind {
 }
 
 impl Observer {
-    /// Returns the actions that would help the map, the most worthwhile first: scripts from where
-    /// the best track is. Nothing depends on whether they are done. O(places + links · degree).
+    /// Returns scripts for actions that would help the map, from the place of the best track. The
+    /// most worthwhile comes first. Nothing depends on whether they are done. O(places + links ·
+    /// degree).
     ///
     /// The opportunity checker "examines the current mapper state to determine if any scripts are
     /// applicable".
@@ -88,7 +89,7 @@ impl Observer {
         all
     }
 
-    /// Returns the actions that were never tried at `place` and may lead somewhere, by number; none
+    /// Returns the actions that were never tried at `place` and may be possible, by number. Empty
     /// if `place` is not on the map. O(actions · degree).
     #[must_use]
     pub fn untried(&self, place: PlaceId) -> Vec<Action> {
@@ -165,8 +166,8 @@ impl Observer {
         OpportunityKind::CloseLoop.offer(other, script, gain)
     }
 
-    /// Returns the number of walks along a script if it is taken once more. The first walk tells
-    /// most, so no script is preferred forever.
+    /// Returns the number of walks along a script after one more. The first walk is worth most, so
+    /// no script is preferred forever.
     fn walks(&self, script: &[Action]) -> f64 {
         let paths = &self.map.paths;
         let links = script.iter().scan(self.place(), |at, action| {
@@ -177,7 +178,8 @@ impl Observer {
         1.0 + links.sum::<f64>() / script.len().max(1) as f64
     }
 
-    /// Returns the actions from here to the nearest place that is a goal, and that place.
+    /// Returns the actions from here to the nearest place for which `is_goal` is true, and that
+    /// place.
     fn script_to(&self, is_goal: impl Fn(PlaceId) -> bool) -> Option<(Vec<Action>, PlaceId)> {
         let walkable = Walkable(self);
         let way = path_to(&walkable, self.place().0, |place| is_goal(PlaceId(place)))?;
@@ -186,9 +188,9 @@ impl Observer {
         Some((steps.into_iter().map(|step| step.action).collect(), end))
     }
 
-    /// Returns whether a robot that goes along a link and back is recognized where it began, by
-    /// geometry alone. After a longer way it might be at another place, and going back would add a
-    /// place that cannot be told apart.
+    /// Returns whether geometry alone recognizes the beginning of a link when a robot goes along
+    /// the link and back. After a longer way it might be at another place, and going back would add
+    /// a place that cannot be told apart.
     fn is_proved_by_return(&self, link: &Link) -> bool {
         self.map.related(link.from, link.to).is_some_and(|there| {
             // Another measurement within the same bounds: there and back are off by the box's width
@@ -205,9 +207,9 @@ impl Observer {
     }
 }
 
-/// The ways that scripts take: those that a plan may follow, and one more. That is the untried
-/// action back along the robot's last link, if its end will be recognized. The world may lack such
-/// a way; a script may fail.
+/// The ways that scripts take: those that a plan may follow, and one more. The latter is the
+/// untried action back along the robot's last link, if its end will be recognized. The world may
+/// lack such a way; then the script fails.
 struct Walkable<'a>(&'a Observer);
 
 impl Walkable<'_> {
@@ -237,7 +239,8 @@ impl Graph for Walkable<'_> {
     }
 }
 
-/// Returns what leads from each place of a way to the next, by the ways there are from each.
+/// Returns the steps from place to place along `way`, or `None` if two of its places are not
+/// joined. `ways` gives the steps from a place.
 pub(super) fn steps_along<I: Iterator<Item = PlanStep>>(
     way: &[u32],
     ways: impl Fn(PlaceId) -> I,

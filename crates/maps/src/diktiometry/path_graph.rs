@@ -9,7 +9,7 @@ use super::{
     Action, Constancy, Counts, Exits, FrameId, LinkId, PlaceId, PlanStep, Signature, TrackEntry,
 };
 
-/// A place, with its reference link: where it lies in its canonical frame.
+/// A place, with its reference link: its position in its canonical frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
     /// Whether it is still part of the map.
@@ -18,8 +18,7 @@ pub struct Place {
     pub frame: FrameId,
     /// Bounds of its position in its frame, m.
     pub position: PointBox,
-    /// The *nominal envelope*: the least box that holds all estimates that its position was updated
-    /// with, m.
+    /// The *nominal envelope*: the least box that holds all estimates of its position so far, m.
     pub envelope: PointBox,
     /// Weighted estimates of its position, m.
     pub estims: Vec<Estim>,
@@ -31,17 +30,17 @@ pub struct Place {
     pub incoming: Vec<LinkId>,
     /// Actions that led nowhere when they were last tried here.
     pub blocked: Vec<Action>,
-    /// Actions that the robot said it could try when it was last here.
+    /// Actions that seemed possible at the robot's last visit.
     pub exits: Exits,
-    /// Number of times that the robot was thought to be here.
+    /// Number of times that the robot was believed to be here.
     pub visits: u32,
-    /// Number of times that the robot was expected here, and that it was.
+    /// Number of times that the robot was expected here, and number of times that it came.
     pub counts: Counts,
     /// Whether the place was there when it was last expected, and how often that changed.
     pub constancy: Constancy,
     /// Histories of tracks left here, the oldest first.
     pub histories: Vec<Vec<TrackEntry>>,
-    /// Delayed gratification: decisions put off until more is known.
+    /// Delayed gratification: decisions postponed until more is known.
     pub notes: Vec<MergeNote>,
 }
 
@@ -66,14 +65,14 @@ impl Place {
         }
     }
 
-    /// Returns whether an action could be tried here on the robot's last visit, by what it saw and
-    /// by the outcome.
+    /// Returns whether an action was possible here at the robot's last visit, by its view and by
+    /// the outcome.
     #[must_use]
     pub fn is_open(&self, action: Action) -> bool {
         self.exits.allow(action) && !self.blocked.contains(&action)
     }
 
-    /// Returns the links that lead to it, then those that leave it.
+    /// Returns the links that lead to the place, then those that leave it.
     pub(super) fn links(&self) -> Vec<LinkId> {
         [self.incoming.as_slice(), &self.outgoing].concat()
     }
@@ -100,7 +99,7 @@ pub struct Estim {
 }
 
 impl Estim {
-    /// Returns the same estimate in a frame whose origin lies at `-shift`, m.
+    /// Returns the estimate in a frame whose origin lies at `-shift`, m.
     pub(super) fn shifted(self, shift: Point) -> Self {
         Self {
             position: self.position + shift.coords,
@@ -113,7 +112,7 @@ impl Estim {
 /// more looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MergeNote {
-    /// The place that may be the same as the one with the note.
+    /// Place that may be the same as the place with the note.
     pub other: PlaceId,
     /// Reason for the suspicion.
     pub ground: Ground,
@@ -128,19 +127,19 @@ pub enum Ground {
     Look,
 }
 
-/// An action link: the action led from one place to another. Several links may bear the same
+/// An action link: the action led from one place to another. Several links may have the same
 /// action.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Link {
     /// Place where the link begins.
     pub from: PlaceId,
-    /// The action.
+    /// Action that leads along the link.
     pub action: Action,
     /// Place to which the link leads.
     pub to: PlaceId,
-    /// Number of times that the robot is thought to have gone along it.
+    /// Number of times that the robot is believed to have gone along it.
     pub traversed: u32,
-    /// Number of times that the robot was expected to go along it, and that it did.
+    /// Number of times that the robot was expected to go along it, and number of times that it did.
     pub counts: Counts,
     /// Whether the link worked when it was last expected to, and how often that changed.
     pub constancy: Constancy,
@@ -158,7 +157,7 @@ impl Link {
         }
     }
 
-    /// Counts that another link was taken after it.
+    /// Counts that another link was taken after this one.
     pub(super) fn follow(&mut self, next: Successor) {
         match self.then.iter_mut().find(|one| one.link == next.link) {
             Some(one) => one.count = one.count.saturating_add(next.count),
@@ -190,7 +189,7 @@ pub enum LinkStatus {
 pub struct PathGraph {
     pub(super) places: Vec<Place>,
     pub(super) links: Vec<Link>,
-    /// Number of places that stand.
+    /// Number of standing places.
     standing: usize,
     /// Number of moves so far.
     pub(super) now: u64,
@@ -209,13 +208,13 @@ impl PathGraph {
         self.links.get(id.index())
     }
 
-    /// Returns the places that stand, by id.
+    /// Returns the standing places, by id.
     pub fn places(&self) -> impl Iterator<Item = (PlaceId, &Place)> {
         let all = (0..).map(PlaceId).zip(&self.places);
         all.filter(|(_, place)| place.fate == Fate::Standing)
     }
 
-    /// Returns the links that stand, by id.
+    /// Returns the standing links, by id.
     pub fn links(&self) -> impl Iterator<Item = (LinkId, &Link)> {
         let all = (0..).map(LinkId).zip(&self.links);
         all.filter(|(_, link)| link.standing == LinkStatus::Standing)
@@ -234,13 +233,13 @@ impl PathGraph {
         }
     }
 
-    /// Links that leave a place, by id.
+    /// Returns the links that leave a place, by id.
     pub fn outgoing(&self, place: PlaceId) -> impl Iterator<Item = (LinkId, &Link)> {
         let ids = self.place(place).map_or(&[][..], |place| &place.outgoing);
         ids.iter().map(|&id| (id, &self.links[id.index()]))
     }
 
-    /// Links that lead to a place, by id.
+    /// Returns the links that lead to a place, by id.
     pub fn incoming(&self, place: PlaceId) -> impl Iterator<Item = (LinkId, &Link)> {
         let ids = self.place(place).map_or(&[][..], |place| &place.incoming);
         ids.iter().map(|&id| (id, &self.links[id.index()]))
@@ -252,8 +251,8 @@ impl PathGraph {
             .filter(move |(_, link)| link.action == action)
     }
 
-    /// Returns the link that an action took most often from a place, lately more than long ago; of
-    /// equals the older.
+    /// Returns the link that an action took most often from a place. Recent moves weigh more; of
+    /// equals the older link.
     #[must_use]
     pub fn likeliest(&self, place: PlaceId, action: Action) -> Option<LinkId> {
         let best = self.along(place, action).max_by(|(a, one), (b, other)| {
@@ -263,14 +262,14 @@ impl PathGraph {
         best.map(|(id, _)| id)
     }
 
-    /// Returns the link of an action between two places, if there is one.
+    /// Returns the link of an action between two places, or `None` if there is none.
     #[must_use]
     pub fn between(&self, from: PlaceId, action: Action, to: PlaceId) -> Option<LinkId> {
         let mut along = self.along(from, action);
         along.find(|(_, link)| link.to == to).map(|(id, _)| id)
     }
 
-    /// Returns the links that a plan may follow from a place: of each action that is open there,
+    /// Returns the links that a plan may follow from a place: for each action that is open there,
     /// the likeliest.
     pub fn ways(&self, place: PlaceId) -> impl Iterator<Item = (LinkId, &Link)> {
         self.outgoing(place).filter(move |(id, link)| {
@@ -279,8 +278,8 @@ impl PathGraph {
         })
     }
 
-    /// Returns the probability that a link still leads where it led. It is the smaller of the
-    /// constancies of the link and of the place at its end. 0 for ids that were never given.
+    /// Returns the probability that a link still works. It is the smaller of the constancies of the
+    /// link and of the place at its end. 0 for unknown ids.
     #[must_use]
     pub fn chance(&self, id: LinkId) -> f64 {
         let Some(link) = self.link(id) else {
@@ -311,8 +310,8 @@ impl PathGraph {
         id
     }
 
-    /// Takes a place that stands out of the graph and returns what it knew: the grave keeps its
-    /// frame and position alone.
+    /// Removes a standing place from the graph and returns its contents. The entry left behind
+    /// keeps only frame and position.
     pub(super) fn bury(&mut self, id: PlaceId, fate: Fate) -> Place {
         self.standing -= 1;
         let place = &mut self.places[id.index()];
@@ -336,12 +335,12 @@ impl PathGraph {
         }
     }
 
-    /// Returns how many places stand.
+    /// Returns the number of places that were not merged away.
     pub(super) const fn standing(&self) -> usize {
         self.standing
     }
 
-    /// Returns the link for an action between two places, which is made if it does not exist.
+    /// Returns the link for an action between two places, which is created if it does not exist.
     pub(super) fn link_to(&mut self, from: PlaceId, action: Action, to: PlaceId) -> LinkId {
         if let Some(known) = self.between(from, action, to) {
             return known;
@@ -362,7 +361,7 @@ impl PathGraph {
         id
     }
 
-    /// Takes a link out of the graph.
+    /// Removes a link from the graph.
     pub(super) fn remove_link(&mut self, id: LinkId) {
         let link = &mut self.links[id.index()];
         link.standing = LinkStatus::Removed;
@@ -376,9 +375,9 @@ impl PathGraph {
 /// Graph for planning: from every place, each action along the link that most probably works now.
 /// The nodes are the ids of places.
 ///
-/// A move costs `MOVE`. Risk costs as much as `FAILURE` moves for each factor of e by which the
-/// move makes the plan less likely to work. In a world that never changed, the cheapest plan has
-/// the fewest moves.
+/// A move costs `MOVE`. If a move lowers the plan's probability of success by a factor of e, that
+/// costs as much as `FAILURE` moves. In a world that never changed, the cheapest plan has the
+/// fewest moves.
 impl Graph for PathGraph {
     fn node_count(&self) -> usize {
         self.places.len()
@@ -392,11 +391,11 @@ impl Graph for PathGraph {
     }
 }
 
-/// The cost of a move.
+/// Cost of a move.
 const MOVE: u32 = 100;
 
-/// Cost of a plan that fails, moves. It is noticed half-way and made again: some dozen moves in
-/// worlds of dozens of places.
+/// Cost of a plan that fails, moves. The failure is noticed half-way and a new plan is made: some
+/// dozen moves in worlds of dozens of places.
 const FAILURE: u32 = 20;
 
 /// Probability below which a link counts as impossible.

@@ -7,9 +7,8 @@ use super::{
 
 /// Probability of each place of a learned map for a robot that was put down anywhere.
 ///
-/// What the robot sees and does makes some places likelier. Places that it contradicts are dropped.
-/// If the robot is where the map did not lead, all places are considered again. The map is only
-/// read.
+/// Views and moves make some places likelier. Places that contradict them are dropped. If the robot
+/// is where no place fits, all places are considered again. The map is only read.
 ///
 /// Beyond the paper, whose tracks begin at a known place: a histogram filter over places (S. Thrun,
 /// W. Burgard, D. Fox, *Probabilistic Robotics*, 2005, section 8.2).
@@ -22,21 +21,21 @@ pub struct PlaceBelief {
 /// Whether the map explains a move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Explained {
-    /// The move led where the map has it, from a place where the robot may have been.
+    /// The move led to where the map has it, from a possible place of the robot.
     ByTheMap,
-    /// The robot is elsewhere than the map leads.
+    /// The move led elsewhere than the map says.
     NotAtAll,
 }
 
-/// Chance that a place looks as it never did.
+/// Probability that a place has a new look.
 const NEW_LOOK: f64 = 0.05;
-/// Chance that a way seems open that was shut, or shut that was open.
+/// Probability that an open way seems shut, or a shut one open.
 const CHANGED_EXIT: f64 = 0.1;
-/// Chance that an action which the map knows leads elsewhere, or that the robot is carried.
+/// Probability that a known action leads elsewhere, or that the robot is carried.
 const ASTRAY: f64 = 0.01;
 /// Share of the likeliest place's probability below which a place is dropped.
 const LEAST: f64 = 1e-4;
-/// Pairs of places looked at for what tells two places apart.
+/// Maximum number of pairs of places that are searched for an action that tells two places apart.
 const PAIRS: usize = 20_000;
 
 impl PlaceBelief {
@@ -52,7 +51,7 @@ impl PlaceBelief {
         belief
     }
 
-    /// Takes in a move and what is seen where it ended. O(places + links · log places).
+    /// Takes in a move and the view at its end. O(places + links · log places).
     pub fn follow(&mut self, observer: &Observer, step: &ObservedMove) -> Explained {
         let seen = FirstPlace {
             percept: step.percept.clone(),
@@ -82,8 +81,8 @@ impl PlaceBelief {
         }
     }
 
-    /// Multiplies the probability of each place by its `likelihood`, 0 to 1, and drops those that
-    /// have become too unlikely. If nothing is likely, the belief stays as it was.
+    /// Multiplies the probability of each place by its `likelihood`, 0 to 1, and drops places that
+    /// have become too unlikely. If nothing is likely, the belief stays the same.
     pub fn weigh(&mut self, likelihood: impl Fn(PlaceId) -> f64) {
         let weighed = self.chances.iter();
         let weighed = weighed.map(|(place, chance)| (*place, chance * likelihood(*place)));
@@ -144,14 +143,14 @@ impl PlaceBelief {
 enum Pair {
     /// The outcome tells them apart.
     ToldApart,
-    /// The robot may now be at these two.
+    /// The robot may now be at one of these two places.
     At((PlaceId, PlaceId)),
     /// The map does not know, or the action leads to one place from both.
     Unknown,
 }
 
 impl Observer {
-    /// Returns how likely a place looks as seen, up to a factor.
+    /// Returns the likelihood of the first view at a place, up to a factor.
     fn likelihood(&self, place: PlaceId, seen: &FirstPlace) -> f64 {
         let known = self.map.place(place);
         let look = match agrees(known, seen.percept.as_ref(), &self.config.percepts) {
@@ -164,7 +163,8 @@ impl Observer {
         )
     }
 
-    /// Returns how many actions seem possible at one place and not at the other, as far as known.
+    /// Returns the number of actions that seem possible at one place alone, or 0 if either's exits
+    /// are unknown.
     fn differing(&self, one: &Exits, other: &Exits) -> usize {
         let (Exits::Seen(one), Exits::Seen(other)) = (one, other) else {
             return 0;

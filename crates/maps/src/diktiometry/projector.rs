@@ -6,14 +6,14 @@ use super::{Action, CompassAxis, Config, FrameId, ObservedMove, Observer, PlaceI
 /// "predicts new states given old state estimates and control inputs".
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Projection {
-    /// The place that was left.
+    /// Place that was left.
     pub(super) from: PlaceId,
     pub(super) action: Action,
-    /// The frame of the place that was left.
+    /// Frame of the place that was left.
     pub(super) frame: FrameId,
-    /// The displacement between the points of the two places, m.
+    /// Displacement between the points of the two places, m.
     pub(super) displacement: PointBox,
-    /// The point of the place arrived at, in the frame, m.
+    /// Point of the place of arrival, in the frame, m.
     pub(super) position: PointBox,
     /// Distance since the last CONTINUE, m.
     pub(super) astray: f64,
@@ -41,9 +41,9 @@ impl Observer {
 }
 
 impl Config {
-    /// Returns the displacement between the points of the places at a move's ends: what odometry
-    /// says, and that a straight corridor leads straight. A robot that seems to have left it was
-    /// carried, and odometry alone counts.
+    /// Returns the displacement between the points of the places at a move's ends, by odometry and
+    /// the straightness of corridors. A robot that seems to have left its corridor was carried, and
+    /// only odometry counts.
     pub(super) fn way(&self, step: &ObservedMove) -> PointBox {
         let way = self.between_places(step.odometry.position);
         let (Some(axis), Ok(line)) = (self.leads(step.action), Interval::about(0.0, self.across))
@@ -57,8 +57,8 @@ impl Config {
         way.intersection(cut).unwrap_or(way)
     }
 
-    /// Returns the displacement between places: the robot's, widened by where in the places it
-    /// stopped.
+    /// Returns the displacement between places: the robot's, widened by its stopping points within
+    /// the places.
     pub(super) fn between_places(&self, robot: PointBox) -> PointBox {
         let Ok(stops) = Interval::about(0.0, 2.0 * self.place_radius) else {
             return robot; // Its radius was checked to be a number, and not negative.

@@ -10,11 +10,10 @@ use tolman_geom::PointBox;
 use super::{CoverageGrid, FrameId, PlaceId};
 pub(super) use search::{Reached, search};
 
-/// A local frame. All frames lie along the axes of the compass, so that a relation is a
-/// displacement.
+/// Places whose position is given in it, by id.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
-    /// The places whose position is given in it, by id.
+    /// Relations to other frames, in order of their ids; each is stored on both sides.
     pub places: Vec<PlaceId>,
     /// Relations to other frames, by their id; each is stored on both sides.
     pub relations: Vec<Relation>,
@@ -35,7 +34,7 @@ impl Frame {
 pub struct Relation {
     /// The other frame.
     pub to: FrameId,
-    /// Its origin in this frame, m: what all estimates allow.
+    /// Position of its origin in this frame, m: the intersection of all estimates.
     pub position: PointBox,
     /// Smallest box that holds all estimates, m.
     pub envelope: PointBox,
@@ -43,11 +42,11 @@ pub struct Relation {
     pub estimates: u32,
 }
 
-/// Two estimates of one displacement that exclude each other: a bound was broken, or two places
+/// Two estimates of one displacement that exclude each other. A bound was broken, or two places
 /// were confused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Excluded {
-    /// Bounds known before, m.
+    /// Bounds before the estimate, m.
     pub known: PointBox,
     /// The new estimate, m.
     pub estimate: PointBox,
@@ -60,20 +59,20 @@ pub struct ReferenceGraph {
 }
 
 impl ReferenceGraph {
-    /// Returns all frames, by id. Those that no place is left in have no relations either.
+    /// Returns all frames, by id. Frames without places have no relations either.
     #[must_use]
     pub fn frames(&self) -> &[Frame] {
         &self.frames
     }
 
-    /// Returns the relation of `to` to `from`, as far as it is known.
+    /// Returns the relation of `to` to `from`, or `None` if it is not known.
     #[must_use]
     pub fn relation(&self, from: FrameId, to: FrameId) -> Option<&Relation> {
         let frame = self.frames.get(from.index())?;
         frame.find(to).ok().map(|at| &frame.relations[at])
     }
 
-    /// Returns where the origin of `to` lies in `from` by the relation between the two, m, or
+    /// Returns the position of the origin of `to` in `from` by the relation between the two, m, or
     /// `None` if they are not related.
     pub(super) fn known(&self, from: FrameId, to: FrameId) -> Option<PointBox> {
         if from == to {
@@ -88,7 +87,7 @@ impl ReferenceGraph {
         id
     }
 
-    /// Returns whether an estimate of where `to` lies in `from` agrees with what is known.
+    /// Checks that an estimate of the position of `to` in `from` agrees with the known relation.
     pub(super) fn allows(
         &self,
         from: FrameId,
@@ -101,8 +100,8 @@ impl ReferenceGraph {
         }
     }
 
-    /// Takes in an estimate of the position of `to` in `from`. An estimate that contradicts what is
-    /// known changes only the envelope.
+    /// Takes in an estimate of the position of `to` in `from`. An estimate that contradicts the
+    /// known relation changes only the envelope.
     pub(super) fn relate(
         &mut self,
         from: FrameId,
@@ -137,7 +136,7 @@ impl ReferenceGraph {
         relation.estimates = relation.estimates.saturating_add(1);
     }
 
-    /// Opens a relation to all that it was ever estimated to be: one of the estimates was wrong.
+    /// Widens a relation to the envelope of all estimates, because one of the estimates was wrong.
     pub(super) fn open(&mut self, from: FrameId, to: FrameId) {
         for (from, to) in [(from, to), (to, from)] {
             let frame = &mut self.frames[from.index()];
@@ -147,7 +146,7 @@ impl ReferenceGraph {
         }
     }
 
-    /// Takes all relations from a frame that no place is left in.
+    /// Removes all relations of a frame without places.
     pub(super) fn clear(&mut self, id: FrameId) {
         let relations = core::mem::take(&mut self.frames[id.index()].relations);
         for relation in relations {

@@ -11,9 +11,9 @@ use super::{Action, LinkId, Matcher, PlaceId, TrackId};
 pub struct StepReport {
     /// Number of the move, from 1.
     pub number: u64,
-    /// Every track that lives on, the best first.
+    /// All surviving tracks, the best first.
     pub tracks: Vec<TrackReport>,
-    /// Contradictions, each with its culprit. They narrow nothing.
+    /// Contradictions, each with its culprit. They narrow no box.
     pub contradictions: Vec<Contradiction>,
     /// Changes of the map, in order.
     pub restructured: Vec<Restructured>,
@@ -42,19 +42,20 @@ pub struct TrackReport {
 /// Prediction of the map for an action at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Predicted {
-    /// Place to which the action leads.
+    /// Probability of that place, by the counts of the links. The probabilities of an action at a
+    /// place sum to 1.
     pub place: PlaceId,
     /// Probability of that place, by the counts of the links. Those of an action at a place sum to
     /// 1.
     pub probability: f64,
-    /// The displacement there, m, or `None` if the reference graph does not relate the two.
+    /// Displacement to that place, m, or `None` if the reference graph does not relate the two.
     pub displacement: Option<PointBox>,
 }
 
-/// Two things that cannot both be true: a bound was broken, or places were confused.
+/// Two facts that cannot both be true: a bound was broken, or places were confused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contradiction {
-    /// The track that noticed.
+    /// Track that noticed it.
     pub track: TrackId,
     /// Part of the map to blame, if not the move itself.
     pub culprit: Culprit,
@@ -75,7 +76,7 @@ pub enum Culprit {
     Relation {
         /// Place where the move began.
         from: PlaceId,
-        /// Place where it ended.
+        /// Place where the move ended.
         to: PlaceId,
     },
 }
@@ -87,7 +88,7 @@ pub enum Restructured {
     Merged {
         /// The place that remains.
         kept: PlaceId,
-        /// The place that is now another name for it.
+        /// Place whose id now stands for the other.
         merged: PlaceId,
     },
     /// One place turned out to be two.
@@ -103,7 +104,7 @@ pub enum Restructured {
     LinkElided(LinkId),
 }
 
-/// One action of a plan: of a way over known links.
+/// One action of a plan, along a known link.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PlanStep {
     /// Action to take.

@@ -1,4 +1,4 @@
-//! The restructurers: they integrate many observations, and repair what matching got wrong.
+//! Restructures the map: integrates many observations, and repairs errors of matching.
 
 mod geometric;
 mod local_path;
@@ -19,7 +19,7 @@ pub(super) use look_agreement::{learn_of_two, wanted_anywhere};
 pub(super) use non_local_path::deposit;
 pub(super) use transients::elide_place;
 
-/// A restructurer's opinion of a diagnosis.
+/// Opinion of a restructurer on a diagnosis.
 ///
 /// "If a diagnosis of either monotopy or polytopy is proposed by at least one restructurer, and is
 /// not rejected by any, we accept the diagnosis."
@@ -45,14 +45,14 @@ impl Verdict {
 enum Diagnosis {
     /// The place was seen at two points.
     Estims {
-        /// The point that the old place keeps.
+        /// Point that the old place keeps.
         stays: Estim,
-        /// The point of the new one.
+        /// Point of the new place.
         leaves: Estim,
     },
-    /// The continuation depends on how the robot came.
+    /// The continuation depends on the way by which the robot came.
     Links {
-        /// The links that lead to the new place.
+        /// Links that lead to the new place.
         incoming: Vec<LinkId>,
     },
 }
@@ -71,7 +71,7 @@ fn accepted(verdicts: impl IntoIterator<Item = Verdict>) -> bool {
     proposed
 }
 
-/// Places with changes that may settle an open decision.
+/// Places whose changes may settle an open decision.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Hints {
     /// Places whose relations to their neighbours changed.
@@ -81,7 +81,7 @@ pub(super) struct Hints {
 }
 
 impl Hints {
-    /// Returns the next place, and whether it changed itself; those that did come first.
+    /// Takes the next place, and whether it changed itself. Places that did come first.
     fn next(&mut self) -> Option<(PlaceId, bool)> {
         let changed = self.changed.pop().map(|place| (place, true));
         changed.or_else(|| Some((self.near.pop()?, false)))
@@ -149,16 +149,16 @@ pub(super) fn restructure(
     done
 }
 
-/// Returns whether the two places of a pair are those that are known to be different.
+/// Returns whether a pair of places is known to be different.
 fn separates(map: &Diktiometry, distinction: &Distinction, pair: &geometric::Pair) -> bool {
     let ends = [distinction.one, distinction.other].map(|end| map.paths.resolve(end));
     ends == [Some(pair.a), Some(pair.b)] || ends == [Some(pair.b), Some(pair.a)]
 }
 
-/// A restructurer's opinion whether two places are one.
+/// Function that gives a restructurer's opinion on whether two places are one.
 type Restructurer = fn(&Diktiometry, &geometric::Pair, &Config) -> Verdict;
 
-/// They are asked one by one, as far as need be.
+/// Restructurers in the order in which they are asked, until one rejects.
 const RESTRUCTURERS: [Restructurer; 6] = [
     geometric::merge,
     views_differ,
@@ -168,7 +168,7 @@ const RESTRUCTURERS: [Restructurer; 6] = [
     look_agreement::merge,
 ];
 
-/// Rejects places that look different. The exception: a place with room for no other looks new, and
+/// Rejects places that look different. Exception: a place without room for another may look new and
 /// is the same.
 fn views_differ(map: &Diktiometry, pair: &geometric::Pair, config: &Config) -> Verdict {
     let [a, b] = [pair.a, pair.b].map(|place| map.place(place));

@@ -12,7 +12,7 @@ use super::{
 /// Maximum number of pairs of places that are compared before two count as different.
 const COMPARED: usize = 256;
 
-/// Signs in the map itself that it is wrong, found without the truth: counts of places.
+/// Signs in the map itself that it is wrong, without the truth.
 ///
 /// Beyond the paper. A map that is not folded has places that may be one with others. A map in
 /// which two places were confused has actions that lead to two places. See [`Self::certainty`].
@@ -22,34 +22,33 @@ pub struct SelfCheck {
     /// Number of places of the map.
     pub places: usize,
     /// Number of places that may be one with another. The bounds allow it, the places look alike,
-    /// and so does all that follows along the same actions.
+    /// and so do all places along the same actions.
     pub doubtful: usize,
-    /// Number of them from which an action of a static world leads to two places, or not back.
+    /// Number of places from which an action of a static world leads to two places, or not back.
     pub torn: usize,
-    /// Number of them where an action that could be tried never was.
+    /// Number of places with an action that seemed possible and was never tried.
     pub open: usize,
 }
 
-/// State of a map, as far as it can tell itself.
+/// State of a map by its own account.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapState {
-    /// Nothing speaks against it, and nothing is left to try.
+    /// Nothing contradicts the map, and no action is left to try.
     Whole,
-    /// Nothing speaks against it, and some ways were never tried.
+    /// Nothing contradicts the map, and some ways were never tried.
     Unfinished,
-    /// Some places may be one, and it cannot tell which.
+    /// Some places may be one, and the map cannot tell which.
     Unfolded,
     /// The map contradicts itself: two places were confused, or an assumption about the robot is
     /// wrong.
     Contradictory,
 }
 
-/// The probability that a map is wrong against which nothing speaks, and that one is right against
-/// which something does.
+/// Probability that a map without contradictions is wrong, and that a map with some is right.
 const ERROR: f64 = 0.01;
 
 impl SelfCheck {
-    /// Returns the probability that the map is right as far as the robot has been, 0 to 1.
+    /// Returns the probability that the map is right for the part where the robot has been, 0 to 1.
     #[must_use]
     pub fn certainty(&self) -> f64 {
         match self.state() {
@@ -58,7 +57,7 @@ impl SelfCheck {
         }
     }
 
-    /// Returns the contradiction of the map, as a part of a sentence; `None` if there is none.
+    /// Returns the contradiction of the map, as part of a sentence; `None` if there is none.
     #[must_use]
     pub fn complaint(&self) -> Option<String> {
         let Self {
@@ -91,8 +90,8 @@ impl SelfCheck {
 }
 
 impl Observer {
-    /// Returns the map's contradictions against itself. O(places · a search, and for each pair near
-    /// each other · ways from both).
+    /// Looks for contradictions of the map and returns the counts. O(places · a search, and for
+    /// each pair near each other · ways from both).
     #[must_use]
     pub fn self_check(&self) -> SelfCheck {
         let mut check = SelfCheck::default();
@@ -119,7 +118,7 @@ impl Observer {
         near.any(|(other, _)| self.may_be_one(place, other))
     }
 
-    /// Returns whether nothing along the same actions speaks against it that two places are one.
+    /// Returns whether two places may be one by everything along the same actions.
     fn may_be_one(&self, one: PlaceId, other: PlaceId) -> bool {
         let mut pairs = Vec::from([(one, other)]);
         let mut next = 0;
@@ -142,7 +141,7 @@ impl Observer {
         true
     }
 
-    /// Returns whether two places look as one, and lie so by what is known of their frames.
+    /// Returns whether two places look alike and may be one by the relation of their frames.
     fn seem_one(&self, a: PlaceId, b: PlaceId) -> bool {
         let map: &Diktiometry = &self.map;
         let [one, other] = [a, b].map(|place| map.place(place));

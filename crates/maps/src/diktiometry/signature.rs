@@ -12,7 +12,7 @@ use thiserror::Error;
 #[cfg_attr(feature = "serde", serde(try_from = "Unchecked"))]
 pub struct Signature {
     rows: usize,
-    /// One column after the other.
+    /// Values, column by column.
     values: Vec<f64>,
 }
 
@@ -37,18 +37,18 @@ impl TryFrom<Unchecked> for Signature {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SignatureError {
-    /// There is nothing in it.
+    /// There are no values.
     #[error("the signature has {values} values in {rows} rows; give at least one of each")]
     Empty {
-        /// Number of rows asked for.
+        /// Number of rows that was asked for.
         rows: usize,
         /// Number of values given.
         values: usize,
     },
-    /// The columns are not of one length.
+    /// The columns differ in length.
     #[error("{values} values do not make columns of {rows} rows; give a multiple of {rows}")]
     Ragged {
-        /// Number of rows asked for.
+        /// Number of rows that was asked for.
         rows: usize,
         /// Number of values given.
         values: usize,
@@ -56,11 +56,11 @@ pub enum SignatureError {
     /// A value is NaN or infinite.
     #[error("column {column}, row {row} is {value}; give a finite number")]
     NotFinite {
-        /// The column.
+        /// Number of the column, from 0.
         column: usize,
-        /// The row in it.
+        /// Row of the value.
         row: usize,
-        /// The value.
+        /// Value that is not finite.
         value: f64,
     },
 }

@@ -23,20 +23,20 @@ pub struct Track {
     pub astray: f64,
     /// Its latest matches, the newest last.
     pub history: Vec<TrackEntry>,
-    /// Frames that its position tells something about.
+    /// Frames about which its position is informative.
     pub active: Vec<ActiveFrame>,
 }
 
 /// One entry of a track's history.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrackEntry {
-    /// The place that was matched.
+    /// Matched place.
     pub place: PlaceId,
-    /// The action that led there, or `None` where the track began.
+    /// Action that led there, or `None` where the track began.
     pub action: Option<Action>,
-    /// Places that "were considered as matches but rejected" and could be the same still.
+    /// Places that "were considered as matches but rejected" and might still be the same.
     pub doubts: Vec<PlaceId>,
-    /// Displacement of the robot since then by odometry, m; unbounded if something on the way is
+    /// Displacement of the robot since this entry by odometry, m; unbounded if a move since then is
     /// doubtful.
     pub since: PointBox,
 }
@@ -60,7 +60,7 @@ impl Track {
         }
     }
 
-    /// Returns what became of it as far as it knows: not how the map has the move.
+    /// Returns the report of the track after a move, without the map's own motion.
     pub(super) const fn report(
         &self,
         from: PlaceId,
@@ -78,7 +78,7 @@ impl Track {
         }
     }
 
-    /// Adds a match; all before it lie a displacement further back.
+    /// Adds a match. The displacements since all earlier entries grow by the last move.
     pub(super) fn remember(&mut self, entry: TrackEntry, moved: PointBox, length: usize) {
         for before in &mut self.history {
             before.since = before.since + moved;

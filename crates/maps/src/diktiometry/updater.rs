@@ -11,9 +11,10 @@ use super::{
 };
 
 impl Observer {
-    /// Returns the track went from one place to another: the link between them is counted.
+    /// Takes in that the track went from one place to another. Counts the link between them and
+    /// returns it.
     ///
-    /// `robot` is where the robot was projected to be in the frame of the place arrived at.
+    /// `robot` is the robot's projected position in the frame of the place of arrival.
     pub(super) fn arrive(
         &mut self,
         projection: &Projection,
@@ -66,7 +67,7 @@ impl Observer {
         Ok(())
     }
 
-    /// Takes in which actions could be tried at a place: links of all others were expected in vain.
+    /// Records which actions seem possible at a place. Links of all others were expected in vain.
     pub(super) fn see_exits(&mut self, place: PlaceId, exits: &Exits) {
         if *exits == Exits::Unknown {
             return;
@@ -95,8 +96,8 @@ impl Observer {
         self.map.place_mut(place).exits = exits.clone();
     }
 
-    /// Counts that the links of an action, and the places they lead to, were expected. If one was
-    /// met, it is `taken`: the link and the displacement of the move.
+    /// Counts that the links of an action, and the places at their ends, were expected. `taken` is
+    /// the link that was met, with the displacement of the move.
     fn expect(&mut self, from: PlaceId, action: Action, taken: Option<(LinkId, PointBox)>) {
         let (fading, now) = (self.config.transients.fading, self.map.paths.now);
         let along = self.map.paths.along(from, action);
@@ -118,8 +119,8 @@ impl Observer {
     }
 
     /// Returns whether a way from a place ends before another place. It does if it is shorter by
-    /// more than half of δ_sep, as two places are δ_sep apart. By the middles of the boxes, along
-    /// straight ways.
+    /// more than half of δ_sep, as two places are δ_sep apart. Measured between the middles of the
+    /// boxes, along straight ways.
     fn ends_before(&self, from: PlaceId, place: PlaceId, way: PointBox) -> bool {
         let length = |displacement: PointBox| displacement.middle().coords.norm();
         let there = self.map.related(from, place);
@@ -133,8 +134,8 @@ fn contract(place: &mut Place, estimate: PointBox) {
     }
 }
 
-/// Adds an estimate of a place's position to its nominal envelope. It goes into the estims only if
-/// it is narrow enough to tell neighbouring places apart. The middle of a wide box is not an
+/// Adds an estimate of a place's position to its nominal envelope. It is added to the estims only
+/// if it is narrow enough to tell neighbouring places apart. The middle of a wide box is not an
 /// observation.
 fn estimate(place: &mut Place, robot: PointBox, separation: f64) {
     place.envelope = place.envelope.hull(robot);

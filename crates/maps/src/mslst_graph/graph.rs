@@ -9,7 +9,7 @@ use tolman_planners::{Graph, path_to, steps_from};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum NodeZone {
-    /// While the robot was in the destination zone: a destination node.
+    /// The node was made while the robot was in the destination zone: a destination node.
     Destination,
     /// Anywhere else.
     Elsewhere,
@@ -20,11 +20,11 @@ pub enum NodeZone {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct Node {
-    /// The number of the quantizer's state.
+    /// Number of the quantizer's state.
     pub state: u32,
     /// Whether it is a destination node.
     pub zone: NodeZone,
-    /// Edges in the order they were entered. Several may bear one action.
+    /// Edges in order of insertion. Several may have the same action.
     pub edges: Vec<ActionEdge>,
 }
 
@@ -48,18 +48,18 @@ pub enum GraphError {
     /// There are no nodes.
     #[error("the graph has no nodes: learn one first")]
     Empty,
-    /// More nodes than ids.
+    /// There are more nodes than ids.
     #[error("the graph has {count} nodes, more than there are ids: learn a shorter one")]
     TooMany {
         /// Number of nodes in the file.
         count: usize,
     },
-    /// An edge leads to a node that is not there.
+    /// An edge leads to a node that does not exist.
     #[error(
-        "node {node}: its {action} edge leads to node {head}, which does not exist; there are {count} nodes"
+        "node {node}: its {action} edge leads to node {head}, which does not exist, as there are {count} nodes: learn the map again"
     )]
     NoSuchNode {
-        /// The node.
+        /// Number of the node, from 0.
         node: u32,
         /// The edge's action.
         action: Direction,
@@ -68,13 +68,13 @@ pub enum GraphError {
         /// Number of nodes.
         count: u32,
     },
-    /// An edge is not entered both ways.
+    /// An edge is stored in one direction only.
     #[error(
-        "node {node}: its {action} edge leads to node {head}, which has no {} edge back",
+        "node {node}: its {action} edge leads to node {head}, which has no {} edge back: learn the map again",
         action.opposite()
     )]
     OneWay {
-        /// The node.
+        /// Number of the node, from 0.
         node: u32,
         /// The edge's action.
         action: Direction,
@@ -86,14 +86,14 @@ pub enum GraphError {
         "node {node}: two {action} edges lead to the same, a node of one state or the dummy node; remove one"
     )]
     Ambiguous {
-        /// The node.
+        /// Number of the node, from 0.
         node: u32,
         /// The edges' action.
         action: Direction,
     },
 }
 
-/// The finished graph of Phase II. Nodes are numbered from 0 in the order they were made.
+/// The finished graph of Phase II. Nodes are numbered from 0 in order of creation.
 ///
 /// Every edge between nodes is stored both ways with opposite actions. Two edges of a node with the
 /// same action lead to nodes of different states. So an action and the state it led to name at most
@@ -106,7 +106,7 @@ pub enum GraphError {
 #[cfg_attr(feature = "serde", serde(try_from = "Saved"))]
 pub struct MslstGraph {
     nodes: Vec<Node>,
-    /// They follow from the nodes.
+    /// Distances to the destination, which follow from the nodes.
     #[cfg_attr(feature = "serde", serde(skip))]
     distances: Vec<Option<u32>>,
 }
@@ -163,7 +163,7 @@ impl MslstGraph {
         0..self.nodes.len() as u32
     }
 
-    /// Returns the size of nodes and edges, bytes. O(nodes).
+    /// Returns the memory of nodes and edges, bytes. O(nodes).
     #[must_use]
     pub fn bytes(&self) -> usize {
         let edges = |node: &Node| size_of_val(node.edges.as_slice());
@@ -176,7 +176,7 @@ impl MslstGraph {
         self.nodes.len()
     }
 
-    /// Returns whether there are none; never of a graph that was learned.
+    /// Returns whether the graph has no nodes, which never holds for a learned one.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.nodes.is_empty()
@@ -202,7 +202,8 @@ impl MslstGraph {
         self.distances.get(id as usize).copied().flatten()
     }
 
-    /// Returns the node that `action` leads to from `id` if the robot then finds itself in `state`.
+    /// Returns the node to which `action` leads from `id` if the robot then finds itself in
+    /// `state`.
     #[must_use]
     pub fn follow(&self, id: u32, action: Direction, state: u32) -> Option<u32> {
         follow(&self.nodes, id, action, state)
@@ -247,7 +248,7 @@ impl Graph for MslstGraph {
     }
 }
 
-/// The graph without those edges of one node that bear actions which just failed there.
+/// The graph without the edges of one node whose actions just failed there.
 struct Without<'a> {
     graph: &'a MslstGraph,
     source: u32,

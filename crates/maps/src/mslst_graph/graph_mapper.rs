@@ -25,7 +25,7 @@ pub struct GraphMapper {
 }
 
 impl GraphMapper {
-    /// Begins with the node of the state that the robot starts in.
+    /// Begins with the node of the robot's first state.
     #[must_use]
     pub fn new(state: u32, zone: NodeZone) -> Self {
         let first = Node {

@@ -8,9 +8,9 @@ use super::memory::Memory;
 pub struct Localization {
     /// The best match, or `None` if no node has the robot's state.
     pub node: Option<u32>,
-    /// All nodes that were left when the search ended, by id.
+    /// All remaining nodes when the search ended, by id.
     pub candidates: Vec<u32>,
-    /// Number of experiences that they match, from the newest on.
+    /// Number of experiences that the remaining nodes match, from the newest on.
     pub matched: usize,
 }
 

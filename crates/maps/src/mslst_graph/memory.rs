@@ -7,7 +7,7 @@ use tolman_maze::Direction;
 pub struct Experience {
     /// The action that led to the state, or `None` for the state the robot began in.
     pub action: Option<Direction>,
-    /// The number of the quantizer's state.
+    /// Number of the quantizer's state.
     pub state: u32,
 }
 
@@ -50,7 +50,7 @@ impl Memory {
         }
     }
 
-    /// Returns the experiences, the newest first; at most as many as the memory is long.
+    /// Returns the experiences, the newest first; at most the memory's length.
     pub fn newest_first(&self) -> impl Iterator<Item = Experience> {
         self.experiences.iter().rev().copied()
     }

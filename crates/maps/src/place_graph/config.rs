@@ -12,14 +12,13 @@ pub struct PlaceGraphConfig {
     pub place_turn: f64,
     /// Standard deviation of the scale error of a robot's wheels.
     pub scale_deviation: f64,
-    /// Standard deviation of their curvature, rad/m.
+    /// Standard deviation of the wheels' curvature, rad/m.
     pub curvature_deviation: f64,
-    /// The share of an outline's points that have to lie on surfaces of the map for a fit to be
-    /// believed.
+    /// Minimum share of an outline's points on surfaces of the map for a fit to be believed.
     pub least_share: f64,
     /// Share of its last looks that contradict the map above which the robot is lost.
     pub most_doubt: f64,
-    /// Most hypotheses of where a lost robot is.
+    /// Maximum number of hypotheses of a lost robot's pose.
     pub most_hypotheses: usize,
     /// Number of new places between two optimizations of the graph.
     pub optimize_every: u32,
@@ -50,8 +49,8 @@ impl PlaceGraphConfig {
         }
     }
 
-    /// Returns the same for wheels that are out of calibration by up to `share` each, 0 … 1, and
-    /// stand `track` apart, m.
+    /// Returns the same values for wheels that stand `track` apart, m, each out of calibration by
+    /// up to `share`, 0 … 1.
     #[must_use]
     pub const fn for_wheels(mut self, share: f64, track: f64) -> Self {
         self.scale_deviation = share;
@@ -61,5 +60,5 @@ impl PlaceGraphConfig {
 }
 
 /// Standard deviation of the curvature caused by an error of the wheels, as a share of the error of
-/// one wheel. Two wheels err one way each. So 3 % on a track of 0.32 m are 0.15 rad/m.
+/// one wheel. The two wheels err in opposite ways. So 3 % on a track of 0.32 m are 0.15 rad/m.
 const CURVATURE: f64 = 1.6;

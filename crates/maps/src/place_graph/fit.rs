@@ -1,4 +1,4 @@
-//! Fits what the robot sees to what the map knows, from where its wheels have it.
+//! Fits a robot's view to the map, starting from its pose by odometry.
 
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
@@ -14,50 +14,51 @@ use crate::tangent::{difference, moved};
 /// Pose of a robot that sees an outline, found by fitting it to the map.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Fit {
-    /// Its pose, by the map and by its wheels.
+    /// Pose of the robot, by the map and by its wheels.
     pub(super) pose: Pose,
-    /// Information of that by the map alone: ahead, left, heading.
+    /// Information by the map alone: ahead, left, heading.
     pub(super) information: Matrix3<f64>,
     /// Covariance of the pose by the map and by the wheels.
     pub(super) covariance: Matrix3<f64>,
     /// Squared distance from the pose by the wheels, in standard deviations.
     pub(super) surprise: f64,
-    /// The share of the outline's points that lie on surfaces of the map.
+    /// Share of the outline's points that lie on surfaces of the map.
     pub(super) share: f64,
-    /// The share of them that lie where the map has surfaces of other colours or directions alone.
+    /// Share of the outline's points where the map has only surfaces of other colours or
+    /// directions.
     pub(super) contradicted: f64,
-    /// Log-likelihood of such a view here, up to a constant.
+    /// Log-likelihood of the view at this pose, up to a constant.
     pub(super) likelihood: f64,
     /// Information by the place that first saw the surfaces.
     pub(super) by_place: BTreeMap<u32, f64>,
 }
 
-/// Rounds of finding the nearest surfaces and moving there.
+/// Number of rounds of finding the nearest surfaces and moving there.
 const ROUNDS: u32 = 8;
 
-/// Distance within which a surface is looked for at first, m.
+/// Search distance for surfaces in the first round, m.
 const FIRST_GATE: f64 = 0.5;
-/// Distance within which a surface is looked for at last, m.
+/// Search distance for surfaces in the last round, m.
 const LAST_GATE: f64 = 0.12;
 /// Factor of the gate from round to round.
 const GATE_SHRINKS: f64 = 0.75;
 
-/// Surfaces of colours farther apart are not the same; light changes.
+/// Maximum difference of colour between views of one surface, because light changes.
 const COLOUR_GATE: f64 = 0.12;
 
-/// Nor are those whose normals have a smaller scalar product.
+/// Minimum scalar product of the normals of one surface.
 const NORMAL_GATE: f64 = 0.88;
 
-/// Residual, in standard deviations, at which a point counts a quarter.
+/// Residual, in standard deviations, at which a point weighs a quarter.
 const DOUBT: f64 = 2.5;
 
-/// Number of standard deviations above which a residual counts as none found.
+/// Number of standard deviations above which a residual counts as no match.
 const MOST_OFF: f64 = 3.0;
 
-/// Angle beyond its cone in which a sonar hears, rad: its mount is not known better.
+/// Angle beyond its cone in which a sonar hears, rad: the uncertainty of its mount.
 const CONE_SLACK: f64 = 0.03;
 
-/// Share that each point of an outline counts of what it would alone: points of one outline err
+/// Weight of each point of an outline relative to an independent one: points of one outline err
 /// together.
 const INDEPENDENT: f64 = 0.3;
 
@@ -73,8 +74,7 @@ struct Residual {
     share: f64,
 }
 
-/// Minimum margin by which left-out surfaces lie beyond those that matter, m, whatever the
-/// rounding.
+/// Minimum margin by which omitted surfaces lie beyond those that matter, m, whatever the rounding.
 const SLACK: f64 = 1e-6;
 
 /// Distances from the robot within which surfaces can matter to an outline, m.
@@ -84,7 +84,7 @@ struct Reach {
 }
 
 impl Reach {
-    /// Returns where surfaces are looked for within `gate` of a point, or of where an arc ends.
+    /// Returns the distances for an outline whose points and arcs find surfaces within `gate`, m.
     fn of(outline: &Outline, gate: f64) -> Self {
         let points = outline.points.iter();
         let points = points.map(|point| point.position.coords.norm() + gate_of(point, gate));
@@ -103,12 +103,12 @@ fn gate_of(point: &OutlinePoint, gate: f64) -> f64 {
     gate + 2.0 * point.deviation
 }
 
-/// Returns an arc's within this, m.
+/// Returns the distance within which an arc's surface is searched, m.
 const fn arc_gate(gate: f64) -> f64 {
     gate.max(0.15)
 }
 
-/// Returns the `surfaces` that lie within `radius` of where the robot is, in their order.
+/// Returns the `surfaces` that lie within `radius` of the robot, m, in their order.
 fn near<'a>(surfaces: &[&'a Surface], pose: Pose, radius: f64) -> Vec<&'a Surface> {
     let within = (radius + SLACK) * (radius + SLACK);
     let x = pose.position.x;
@@ -117,10 +117,10 @@ fn near<'a>(surfaces: &[&'a Surface], pose: Pose, radius: f64) -> Vec<&'a Surfac
     surfaces.filter(is_near).collect()
 }
 
-/// Returns the run of `surfaces` in which are all whose x is within these bounds, m, and some
-/// beside. O(log surfaces).
+/// Returns the run of `surfaces` that contains all with an x within these bounds, m, and some
+/// others. O(log surfaces).
 ///
-/// They come by column of their grid, and within a column in any order: so the bounds are a column
+/// Surfaces are sorted by column of their grid, but not within a column, so the bounds are a column
 /// wider.
 fn between<'a, 'b>(surfaces: &'b [&'a Surface], low: f64, high: f64) -> &'b [&'a Surface] {
     let slack = CELL + SLACK;
@@ -131,8 +131,8 @@ fn between<'a, 'b>(surfaces: &'b [&'a Surface], low: f64, high: f64) -> &'b [&'a
     run
 }
 
-/// Returns where a robot is that was predicted at `predicted`, with this covariance, and sees
-/// `outline`; `None` if the covariance is singular. `surfaces` come as
+/// Returns the fitted pose of a robot that sees `outline` and was predicted at `predicted`. `None`
+/// if the covariance is singular. `surfaces` are sorted as
 /// [`Surfaces::all`](super::surfaces::Surfaces::all) has them. O(rounds · outline · surfaces near
 /// each of its points).
 pub(super) fn fit(
@@ -222,7 +222,8 @@ fn of_point(
     })
 }
 
-/// Returns the share of an outline's points that lie where the map has surfaces, but none alike.
+/// Returns the share of an outline's points that lie where the map has surfaces, but no similar
+/// ones.
 fn contradicted(outline: &Outline, surfaces: &[&Surface], pose: Pose) -> f64 {
     let gate = FIRST_GATE * 0.5;
     let surfaces = near(surfaces, pose, Reach::of(outline, gate).points);
@@ -253,7 +254,8 @@ fn is_alike(surface: &Surface, point: &OutlinePoint, normal: Option<Vector>) -> 
     }
 }
 
-/// Returns how much farther a sonar heard than the nearest surface in its cone.
+/// Returns the residual of a sonar's range and the nearest surface in its cone, or `None` if no
+/// surface fits.
 fn of_arc(arc: &Sounding, surfaces: &[&Surface], pose: Pose, gate: f64) -> Option<Residual> {
     let ear = pose.compose(arc.mount);
     let axis = ear.heading.unit();
@@ -344,8 +346,8 @@ fn normal_equations(residuals: &[Residual]) -> (Matrix3<f64>, Vector3<f64>) {
     (information, pull)
 }
 
-/// Returns the log-likelihood of an outline. Points that were found count by their residuals,
-/// others as the worst residual.
+/// Returns the log-likelihood of an outline. Matched points count by their residuals, others as the
+/// worst residual.
 fn likelihood(outline: &Outline, residuals: &[Residual]) -> f64 {
     let worst = MOST_OFF * MOST_OFF;
     let of = outline.points.len() as f64 + ARC_SHARE * outline.arcs.len() as f64;
@@ -365,8 +367,8 @@ mod tests {
     use super::super::surfaces::Surfaces;
     use super::*;
 
-    /// Returns walls 2 m away all round, each point seen from the middle, and a sonar that hears
-    /// the wall ahead.
+    /// Returns the outline of walls 2 m away all round, seen from the middle, and of a sonar that
+    /// hears the wall ahead.
     fn room() -> Outline {
         let point = |number: u32| {
             let heading = Heading::from_radians(f64::from(number) * 0.26);

@@ -16,24 +16,24 @@ pub fn foot_line(picture: &Picture) -> Vec<OutlinePoint> {
     columns.filter_map(|column| foot(picture, column)).collect()
 }
 
-/// Maximum number of columns used; more are thinned out.
+/// Maximum number of columns; more are thinned out.
 const MOST_COLUMNS: u32 = 40;
 
 /// Number of rows at the bottom that have to be floor.
 const FLOOR_ROWS: u32 = 3;
 
-/// Number of rows above the foot whose mean is the colour of what stands there.
+/// Number of rows above the foot whose mean colour is that of the thing.
 const COLOUR_ROWS: u32 = 3;
 
 /// Share of its brightness by which a pixel differs from the floor; with a smaller difference it is
 /// floor.
 const UNLIKE: f64 = 0.22;
 
-/// Minimum angle below the horizon at which a foot is seen, as a tangent: farther things have too
-/// vague a distance.
+/// Minimum angle below the horizon at which a foot is used, as a tangent: the distance of farther
+/// things is too vague.
 const LEAST_DOWN: f64 = 0.09;
 
-/// Nothing stands nearer, m: it would be under the camera.
+/// Minimum distance of a foot, m: nearer things would be under the camera.
 const NEAREST: f64 = 0.01;
 
 fn foot(picture: &Picture, column: u32) -> Option<OutlinePoint> {
@@ -99,7 +99,7 @@ fn mean(picture: &Picture, column: u32, rows: core::ops::Range<u32>) -> Option<[
     Some(sum)
 }
 
-/// Returns the largest difference of a part, as a share of the brightness.
+/// Returns the largest difference of a colour channel, as a share of the brightness.
 fn unlikeness(a: [f64; 3], b: [f64; 3]) -> f64 {
     let brightness = (a.iter().sum::<f64>() + b.iter().sum::<f64>()) / 6.0 + 10.0;
     let parts = a.iter().zip(b).map(|(a, b)| (a - b).abs());

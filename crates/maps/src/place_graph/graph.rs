@@ -14,7 +14,7 @@ use super::{Outline, PlaceGraphConfig};
 use crate::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph, PoseGraphError};
 use crate::tangent::difference;
 
-/// What a robot has seen where it stands, and the way that led there.
+/// View of a robot at its pose, and the way that led there.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SeenThere {
@@ -22,13 +22,12 @@ pub struct SeenThere {
     pub rolled: Vec<Odometry>,
     /// Snapshot taken there.
     pub snapshot: Snapshot,
-    /// Whether it was lifted and put down anywhere since it looked before, so that its wheels say
-    /// nothing.
+    /// Whether the robot was lifted and put down anywhere since its last look, so that odometry
+    /// tells nothing.
     pub put_down: bool,
 }
 
-/// Places that a robot has been at, and where they lie; it corrects the robot's pose while it
-/// grows.
+/// Map of the places where a robot has been. It corrects the robot's pose while it grows.
 ///
 /// The map's frame has its origin where the robot was first put down, looking along x.
 #[derive(Clone, Debug)]
@@ -42,16 +41,16 @@ pub struct PlaceGraph {
     /// Outline seen from each place.
     pub(super) places: Vec<Outline>,
     pub(super) graph: PoseGraph,
-    /// Places that the robot went between, the lower one first.
+    /// Pairs of places between which the robot went, the lower id first.
     pub(super) links: BTreeSet<(u32, u32)>,
     surfaces: Surfaces,
     wheels: WheelError,
     whereabouts: Whereabouts,
-    /// Number of places that are new since the graph was optimized.
+    /// Number of new places since the graph was optimized.
     unsettled: u32,
     /// Whether new places are still added.
     grows: bool,
-    /// Number of places at which they are next fitted to each other.
+    /// Number of places at which all are fitted to each other again.
     relaxes_at: usize,
 }
 
@@ -70,8 +69,8 @@ enum Whereabouts {
 struct Here {
     pose: Pose,
     covariance: Matrix3<f64>,
-    /// The place that the robot was nearest to when it was last recognized, with the way from
-    /// there, by its wheels alone since then.
+    /// Place to which the robot was nearest when it was last recognized, with its odometry since
+    /// then.
     last: u32,
     since: Pose,
     since_covariance: Matrix3<f64>,
@@ -79,7 +78,7 @@ struct Here {
     doubt: f64,
 }
 
-/// Reason why a map cannot take in what was seen.
+/// Reason why a map cannot take in a view.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlaceGraphError {
@@ -89,7 +88,7 @@ pub enum PlaceGraphError {
         /// Number of the step, from 0.
         step: usize,
     },
-    /// An edge between two places cannot be kept.
+    /// An edge between two places is refused.
     #[error("two places cannot be joined")]
     Edge(#[from] PoseGraphError),
 }
@@ -98,21 +97,22 @@ pub enum PlaceGraphError {
 const SURE: f64 = 0.98;
 const LEAST_LOOKS: u32 = 20;
 
-/// Minimum fit of a place that is joined, in points.
+/// Minimum evidence from a place, in points, for the place to be joined.
 const LEAST_SEEN: f64 = 6.0;
 
-/// Number of rounds in which places are fitted to each other, …
+/// Number of rounds in which places are fitted to each other.
 const RELAX_ROUNDS: u32 = 4;
-/// … and maximum displacement in each round, m and rad.
+/// Maximum displacement of a place in each of these rounds, m and rad.
 const RELAX_WITHIN: (f64, f64) = (0.1, 0.05);
 
-/// The first number of places that are fitted to each other.
+/// First number of places at which all are fitted to each other.
 const FIRST_RELAXED: usize = 20;
 
-/// Distance above which two places have others between them, in distances between places.
+/// Distance above which two places have others between them, as a multiple of the distance of
+/// places.
 const LONGEST_LINK: f64 = 2.0;
 
-/// Maximum number of places joined by a fit: those that brought most of it.
+/// Maximum number of places joined by a fit: those with the most evidence.
 const MOST_JOINED: usize = 4;
 
 impl PlaceGraph {
@@ -133,7 +133,7 @@ impl PlaceGraph {
         }
     }
 
-    /// Returns a map as it was kept, with a robot put down anywhere on it.
+    /// Returns a map from its saved parts, with a robot put down anywhere on it.
     #[cfg(feature = "serde")]
     pub(super) fn restored(
         config: PlaceGraphConfig,
@@ -153,7 +153,7 @@ impl PlaceGraph {
     }
 
     /// Returns the map with another robot on it, whose wheels and pose are unknown. The robot adds
-    /// new places only if `grows`. An empty map begins where the robot looks first, in any case.
+    /// new places only if `grows`. An empty map begins at the robot's first look, in any case.
     #[must_use]
     pub fn put_down(mut self, grows: bool) -> Self {
         self.wheels =
@@ -166,7 +166,7 @@ impl PlaceGraph {
         self
     }
 
-    /// Returns the size of places, poses and the links between them, bytes. O(places).
+    /// Returns the memory of places, poses and the links between them, bytes. O(places).
     #[must_use]
     pub fn bytes(&self) -> usize {
         let outlines = self.places.iter().map(|outline| {
@@ -210,7 +210,7 @@ impl PlaceGraph {
         }
     }
 
-    /// Returns whether it knows where the robot is.
+    /// Returns whether the robot's pose is known.
     #[must_use]
     pub const fn is_localized(&self) -> bool {
         matches!(self.whereabouts, Whereabouts::Known(_))
@@ -223,7 +223,7 @@ impl PlaceGraph {
         Whereabouts::Known(Here::at(Pose::IDENTITY, Matrix3::identity() * 1e-6, place))
     }
 
-    /// Follows the robot by its wheels and by what it sees.
+    /// Follows the robot by its odometry and its view.
     fn follow(
         &mut self,
         mut here: Here,
@@ -270,14 +270,14 @@ impl PlaceGraph {
         Ok(Whereabouts::Known(here))
     }
 
-    /// Returns whether a fit is where the robot is: the map shows most of what it sees, and its
-    /// wheels could have led it there.
+    /// Returns whether a fit is the robot's pose: the map shows most of the view, and odometry
+    /// could have led there.
     fn believes(&self, outline: &Outline, fit: &Fit) -> bool {
         let tells_little = outline.points.len() < LEAST_POINTS;
         fit.surprise < MOST_SURPRISE && (tells_little || fit.share >= self.config.least_share)
     }
 
-    /// Adds the place where the robot is, if it is new.
+    /// Adds the robot's place, if it is new.
     fn grow(
         &mut self,
         here: &mut Here,
@@ -322,8 +322,8 @@ impl PlaceGraph {
         Ok(())
     }
 
-    /// Records that the robot went from one place to another, if they are so near that there was
-    /// none in between.
+    /// Records that the robot went from one place to another, if they are near enough to have none
+    /// in between.
     fn link(&mut self, from: u32, to: u32) {
         let [a, b] = [from, to].map(|id| self.graph.poses()[id as usize].position);
         if from != to && (a - b).norm() < LONGEST_LINK * self.config.place_distance {
@@ -360,7 +360,7 @@ impl PlaceGraph {
         Ok(self.graph.add_edge(edge)?)
     }
 
-    /// Makes all places agree, and the robot and the surfaces with them.
+    /// Optimizes the poses of all places, and moves the robot and the surfaces along.
     fn settle(&mut self, here: &mut Here) {
         self.unsettled = 0;
         self.graph.optimize(&self.config.optimizer);
@@ -372,7 +372,7 @@ impl PlaceGraph {
         here.pose = self.graph.poses()[here.last as usize].compose(here.since);
     }
 
-    /// Puts together what all places show.
+    /// Computes the surfaces from the outlines of all places.
     fn survey(&mut self) {
         self.surfaces = Surfaces::default();
         let places = self.places.iter().zip(self.graph.poses());
@@ -381,7 +381,7 @@ impl PlaceGraph {
         }
     }
 
-    /// Fits every place to what all places together show, which the first saw only in part.
+    /// Fits every place to the surfaces of all places, of which early places knew only a part.
     /// O(places · outline · surfaces).
     fn relax(&mut self) {
         let (distance, turn) = RELAX_WITHIN;
@@ -444,24 +444,24 @@ impl PlaceGraph {
     }
 }
 
-/// Returns the variances of a robot's pose beside a place that was recognized, m² and rad²: fits of
-/// neighbouring places err together.
+/// Returns the variances of a robot's pose beside a recognized place, m² and rad². They are
+/// increased, because fits of neighbouring places err together.
 const fn beside_a_place() -> Vector3<f64> {
     Vector3::new(0.05 * 0.05, 0.05 * 0.05, 0.04 * 0.04)
 }
 
-/// Share of each look that contradicts a right map, because light changes and edges are vague.
+/// Share of each look that contradicts even a right map, because light changes and edges are vague.
 const USUAL_CONTRADICTION: f64 = 0.08;
 
-/// Squared distance, in standard deviations, from the pose by the wheels beyond which a fit is
+/// Squared distance, in standard deviations, between fit and odometry beyond which a fit is
 /// rejected.
 const MOST_SURPRISE: f64 = 16.0;
 
-/// Minimum number of points of an outline that is evidence by itself.
+/// Minimum number of points of an outline that counts as evidence.
 const LEAST_POINTS: usize = 8;
 
-/// Returns the places that saw the surfaces of a fit first, each with its share of the information,
-/// the largest first.
+/// Returns the places that first saw the surfaces of a fit. Each comes with its share of the
+/// information, the largest first.
 fn seen_by(fit: &Fit) -> Vec<(u32, f64)> {
     let total: f64 = fit.by_place.values().sum();
     let mut places: Vec<(u32, f64)> = (fit.by_place.iter())

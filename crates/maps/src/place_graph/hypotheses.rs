@@ -24,34 +24,35 @@ pub(super) struct Hypothesis {
     pub(super) looks: u32,
 }
 
-/// Initial standard deviations of a hypothesis, m and rad: it starts where a place was seen from.
+/// Initial standard deviations of a hypothesis, m and rad, about the pose of a place.
 const SPREAD: (f64, f64) = (0.25, 0.25);
 
-/// Number of directions that hypotheses look into, wherever a place lies.
+/// Number of headings of the hypotheses at each place.
 const DIRECTIONS: u32 = 14;
 
 /// Distance of two places below which they make only one hypothesis, m.
 const APART: f64 = 0.4;
 
-/// Difference of log-likelihood to the best at which a hypothesis is given up.
+/// Difference from the best log-likelihood at which a hypothesis is dropped.
 const HOPELESS: f64 = 12.0;
 
-/// Two that are nearer are one, m and rad.
+/// Distance below which two hypotheses are one, m and rad.
 const SAME: (f64, f64) = (0.2, 0.2);
 
-/// Factor by which earlier looks weigh less after each look, as no map is quite right.
+/// Factor by which the weight of earlier looks shrinks after each look, because no map is exactly
+/// right.
 const FORGETS: f64 = 0.95;
 
 /// Weight of a look's evidence, relative to that for a map without errors.
 const BELIEVES: f64 = 0.3;
 
-/// Log-likelihood (natural) that a hypothesis loses by a look that the map contradicts altogether.
+/// Log-likelihood (natural) that a hypothesis loses by a look that the map contradicts completely.
 const REFUTES: f64 = 6.0;
 
-/// Bonus of the pose that was held over any other, as a log-likelihood.
+/// Bonus for the believed pose over any other, as a log-likelihood.
 const HELD: f64 = 5.0;
 
-/// Returns hypotheses all round at each of `places`.
+/// Returns hypotheses with headings all round at each of `places`.
 pub(super) fn everywhere(places: &[Pose]) -> Vec<Hypothesis> {
     let mut points: Vec<Point> = vec![];
     for place in places {
@@ -77,7 +78,7 @@ fn all_round(position: Point) -> impl Iterator<Item = Hypothesis> {
     })
 }
 
-/// Returns the hypotheses after the robot has rolled and looked, the best first, `most` at most.
+/// Returns the hypotheses after the robot has moved and looked, the best first, at most `most`.
 pub(super) fn looked(
     before: Vec<Hypothesis>,
     rolled: &Rolled,
@@ -114,8 +115,8 @@ pub(super) fn weights(hypotheses: &[Hypothesis]) -> Vec<f64> {
 }
 
 impl Hypothesis {
-    /// Returns where a robot was held to be until it was doubted: likelier than anywhere else to
-    /// begin with.
+    /// Returns the hypothesis that the robot is still where it was believed to be until doubt
+    /// began. It begins likelier than any other.
     pub(super) const fn held(pose: Pose, covariance: Matrix3<f64>) -> Self {
         Self {
             pose,
@@ -151,7 +152,7 @@ impl Hypothesis {
     }
 }
 
-/// Returns the covariance of a pose after a known motion, from that before.
+/// Returns the covariance of a pose after a known motion, from the covariance before.
 pub(super) fn turned_into(motion: Pose, before: &Matrix3<f64>) -> Matrix3<f64> {
     let back = motion.inverse();
     let column = |unit: Pose| difference(Pose::IDENTITY, back.compose(unit).compose(motion));

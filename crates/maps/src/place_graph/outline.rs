@@ -9,22 +9,22 @@ use super::foot_line;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Outline {
-    /// Points of their surfaces.
+    /// Points on their surfaces.
     pub points: Vec<OutlinePoint>,
-    /// Readings of sensors that hear in a cone, as far as they met something.
+    /// Readings of sensors with a cone, where they met something.
     pub arcs: Vec<Sounding>,
-    /// Surfaces that face a range sensor, which heard them nearer than its neighbours did.
+    /// Surfaces that face a range sensor: it heard them nearer than its neighbours did.
     pub faced: Vec<OutlinePoint>,
 }
 
-/// A point where something stands.
+/// Point of a thing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct OutlinePoint {
     /// Position, m.
     pub position: Point,
     /// Normal of its surface, a unit vector towards the robot; `None` if its neighbours do not
-    /// tell.
+    /// determine it.
     pub normal: Option<Vector>,
     /// Standard deviation of its distance from the robot, m.
     pub deviation: f64,
@@ -71,7 +71,7 @@ impl Outline {
     }
 }
 
-/// Distance beyond which a surface may face another sensor as well, m.
+/// Distance beyond which a surface may face another sensor too, m.
 const FACED_WITHIN: f64 = 3.0;
 
 /// Standard deviation of the distance of a faced surface: m, and per metre of range.
@@ -112,15 +112,15 @@ fn point_of(beam: &Sounding) -> OutlinePoint {
     }
 }
 
-/// Numbers of neighbours on either side that may make a surface together with a point: the most
-/// that lie on one line do.
+/// Numbers of neighbours on either side from which a point's surface is fitted: the greatest that
+/// lies on a line is used.
 const BESIDE: [usize; 4] = [16, 10, 6, 3];
 
-/// Distance, m, above which neighbours belong to different things; so they do above a fifth of
-/// their range.
+/// Distance above which neighbours belong to different things, m. A fifth of their range is another
+/// such limit.
 const GAP: f64 = 0.25;
 
-/// Gives each point the normal of the line through it and its neighbours, if they are on one.
+/// Gives each point the normal of the line through its neighbours, if they lie on a line.
 fn find_normals(points: &mut [OutlinePoint]) {
     let normal = |index| {
         BESIDE
@@ -145,7 +145,7 @@ fn normal(points: &[OutlinePoint], index: usize, beside: usize) -> Option<Vector
     line.is_straight(around).then(|| towards_robot(line.normal))
 }
 
-/// Returns the points about one of them without a gap between any two.
+/// Returns the points around one of them, without a gap between neighbours.
 fn neighbours(points: &[OutlinePoint], index: usize, beside: usize) -> Option<&[OutlinePoint]> {
     let joined = |a: &OutlinePoint, b: &OutlinePoint| {
         (a.position - b.position).norm() < GAP.max(0.2 * a.position.coords.norm())
@@ -188,8 +188,8 @@ impl Line {
         Some(Self { middle, normal })
     }
 
-    /// Returns whether the points are off the line by no more than they err: each errs along the
-    /// line of sight.
+    /// Returns whether the points lie on the line within their errors, which are along the line of
+    /// sight.
     fn is_straight(&self, points: &[OutlinePoint]) -> bool {
         let off = |point: &OutlinePoint| {
             let sight = point.position.coords.normalize();

@@ -25,7 +25,7 @@ pub struct SavedPlaceGraph {
     config: PlaceGraphConfig,
     places: Vec<SavedPlace>,
     edges: Vec<PoseEdge>,
-    /// Places that the robot went between, the lower one first.
+    /// Pairs of places between which the robot went, the lower id first.
     links: Vec<(u32, u32)>,
 }
 
@@ -40,7 +40,7 @@ struct SavedPlace {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum SavedPlaceGraphError {
-    /// The file is of another format or version.
+    /// The file has another format or version.
     #[error(
         "the format is {format:?}, version {version}; expected {FORMAT:?}, version {VERSION}: learn the map again"
     )]
@@ -55,10 +55,10 @@ pub enum SavedPlaceGraphError {
     Config {
         /// Name of the field.
         field: &'static str,
-        /// Its value.
+        /// Value that was given.
         value: f64,
     },
-    /// A number of a place is invalid.
+    /// A place has an invalid number.
     #[error(
         "place {place} has a number that is not finite, or a deviation that is not positive: learn the map again"
     )]
@@ -66,7 +66,7 @@ pub enum SavedPlaceGraphError {
         /// Its id.
         place: usize,
     },
-    /// A link joins a place that is not there.
+    /// A link joins a place that does not exist.
     #[error(
         "places {from} and {to} are linked, but the number of places is {places}: learn the map again"
     )]

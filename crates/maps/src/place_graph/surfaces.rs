@@ -4,8 +4,8 @@ use tolman_geom::{Point, Pose, Vector, floor_index};
 
 use super::{Outline, OutlinePoint};
 
-/// The surfaces of things as seen from all places, in the map's frame. Each is a small piece: one
-/// for each cell of a grid, direction and colour.
+/// Surfaces of things as seen from all places, in the map's frame. Each is a small piece for one
+/// cell of a grid, one direction and one colour.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Surfaces {
     pieces: BTreeMap<Key, Surface>,
@@ -21,9 +21,9 @@ pub(super) struct Surface {
     normal: Vector,
     colour: [f64; 2],
     has_colour: bool,
-    /// Sum of the weights of the points, 1/m².
+    /// A piece of a surface: the mean of all points seen on it.
     weight: f64,
-    /// The place that saw it first.
+    /// Place that saw it first.
     pub(super) place: u32,
 }
 
@@ -59,7 +59,7 @@ pub(super) const CELL: f64 = 0.1;
 const LEAST_DEVIATION: f64 = 0.01;
 
 impl Surfaces {
-    /// Adds what a place shows.
+    /// Adds the outline seen from a place.
     pub(super) fn add(&mut self, place: u32, pose: Pose, outline: &Outline) {
         for point in outline.points.iter().chain(&outline.faced) {
             if let Some(normal) = point.normal {
@@ -93,7 +93,7 @@ impl Surfaces {
         }
     }
 
-    /// Returns all of them, by column of the grid.
+    /// Returns all surfaces, by column of the grid.
     pub(super) fn all(&self) -> impl Iterator<Item = &Surface> {
         self.pieces.values()
     }

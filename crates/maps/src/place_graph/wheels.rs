@@ -4,8 +4,8 @@ use tolman_robot::Odometry;
 
 use crate::tangent::difference;
 
-/// Estimate of the constant errors of the wheels: both larger or smaller than they should be, and
-/// one larger than the other.
+/// Estimate of the constant errors of the wheels: of their common size, and of the difference
+/// between them.
 ///
 /// A robot that rolled `distance` and `turn` has truly moved `distance` · (1 + scale), and has
 /// truly turned by `turn` · (1 + scale) + `distance` · curvature.
@@ -14,7 +14,7 @@ use crate::tangent::difference;
 pub struct WheelError {
     /// Share by which both wheels are too large.
     pub scale: f64,
-    /// The turn that goes unnoticed, rad per metre.
+    /// Unnoticed turn, rad per metre.
     pub curvature: f64,
     /// Covariance of scale and curvature.
     covariance: Matrix2<f64>,
@@ -25,7 +25,7 @@ pub struct WheelError {
 pub(super) struct Rolled {
     /// Motion since the last step.
     pub(super) pose: Pose,
-    /// Covariance of that, ahead and to the left of it, and of the heading.
+    /// Covariance of the motion, ahead and to the left, and of the heading.
     pub(super) covariance: Matrix3<f64>,
     /// Derivative of the pose by scale and curvature.
     by_error: Matrix3x2<f64>,
@@ -38,7 +38,7 @@ const SLIP_TURN: f64 = 0.03 * 0.03;
 const LEAST_VARIANCE: f64 = 1e-6;
 
 impl WheelError {
-    /// Returns errors of which nothing is known but their maximum, as standard deviations.
+    /// Returns errors that are known only up to these standard deviations.
     #[must_use]
     pub fn unknown(scale_deviation: f64, curvature_deviation: f64) -> Self {
         let deviations = Vector2::new(scale_deviation, curvature_deviation);
@@ -49,7 +49,8 @@ impl WheelError {
         }
     }
 
-    /// Returns where a robot has come to that rolled so.
+    /// Returns the pose that follows from the odometry, corrected for the error, with its
+    /// covariance.
     pub(super) fn predict(&self, rolled: &[Odometry]) -> Rolled {
         let pose = way(rolled, self.scale, self.curvature);
         let changed = |scale: f64, curvature: f64| {
@@ -71,8 +72,9 @@ impl WheelError {
         }
     }
 
-    /// Learns from where the robot was found: `off` from the prediction, whose covariance is
-    /// `before`. The new pose has the covariance `after`, to which the prediction contributes.
+    /// Learns from the pose at which the robot was found: `off` from the prediction, whose
+    /// covariance is `before`. The new pose has the covariance `after`, to which the prediction
+    /// contributes.
     pub(super) fn learn(
         &mut self,
         predicted: &Rolled,

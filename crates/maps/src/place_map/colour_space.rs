@@ -41,7 +41,7 @@ impl ColourSpace {
     }
 }
 
-/// Returns hue, saturation and value; grey, which has no hue, gets 0.
+/// Returns hue, saturation and value. Grey, which has no hue, gets hue 0.
 fn hsv_from_rgb([red, green, blue]: [f32; 3]) -> [f32; 3] {
     let value = red.max(green).max(blue);
     let spread = value - red.min(green).min(blue);

@@ -1,11 +1,11 @@
 use thiserror::Error;
 use tolman_quantizers::{InputError, QuantizerConfigError, SnapshotError};
 
-/// Reason why records have no features of the kind that was chosen.
+/// Reason why records do not have the chosen features.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum FeatureError {
-    /// Features are scaled by how they vary over records.
+    /// There are no records, from whose variation features are scaled.
     #[error("there are no records to scale the features by: give the records of the places first")]
     NoRecords,
     /// No group is chosen, or a group has no values.
@@ -16,54 +16,54 @@ pub enum FeatureError {
     /// A group stands twice in the choice.
     #[error("the {group} is chosen twice: name each group once, and give it more weight instead")]
     ChosenTwice {
-        /// The group.
+        /// Name of the group.
         group: &'static str,
     },
-    /// A record without a picture.
+    /// A record has no picture.
     #[error(
         "record {record} has no picture: leave the record out, or the image out of the features"
     )]
     NoPicture {
-        /// Its number, from 0.
+        /// Number of the record, from 0.
         record: usize,
     },
-    /// A record whose picture has no pixels, or not as many as it says.
+    /// A record's picture has no pixels, or not as many as its size.
     #[error(
         "the picture of record {record} has {found} pixels where {width} × {height} were expected: leave the record out"
     )]
     BadPicture {
-        /// Its number, from 0.
+        /// Number of the record, from 0.
         record: usize,
         /// Number of pixels across.
         width: u32,
         /// Number of pixels down.
         height: u32,
-        /// Number of pixels that are there.
+        /// Number of pixels in the picture.
         found: usize,
     },
-    /// A record with another number of soundings than the first.
+    /// A record has another number of soundings than the first.
     #[error(
         "record {record} has {found} soundings where the first has {expected}: leave it out, or the sonar out of the features"
     )]
     OtherSoundings {
-        /// Its number, from 0.
+        /// Number of the record, from 0.
         record: usize,
         /// Number in the first record.
         expected: usize,
         /// Number in this record.
         found: usize,
     },
-    /// A range or a position that is NaN or infinite.
+    /// A range or a position is NaN or infinite.
     #[error("the {group} of record {record} is not finite: leave the record out or repair it")]
     NotFinite {
-        /// Its number, from 0.
+        /// Number of the record, from 0.
         record: usize,
-        /// The group.
+        /// Name of the group.
         group: &'static str,
     },
 }
 
-/// Reason why a place map cannot be learned, asked or read.
+/// Reason why a place map cannot be learned, queried or read.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlaceMapError {
@@ -79,21 +79,21 @@ pub enum PlaceMapError {
     /// The saved network is invalid.
     #[error(transparent)]
     Network(#[from] SnapshotError),
-    /// Two records are needed to begin with.
+    /// There are fewer than two records, with which the gas begins.
     #[error("{found} records are too few for a map: give at least two")]
     TooFewRecords {
         /// Number found.
         found: usize,
     },
-    /// A number of a record that is not there.
-    #[error("there is no record {record}: the table has {count}")]
+    /// A record's number is beyond the table.
+    #[error("there is no record {record}: give a number below {count}")]
     NoSuchRecord {
         /// The number.
         record: usize,
         /// Number found.
         count: usize,
     },
-    /// The file is something else, or of a later version.
+    /// The file has another format, or a later version.
     #[error("this is {format:?} of version {version}; give \"tolman-place-map\" of version 1")]
     WrongFormat {
         /// Format that the file states.
@@ -101,7 +101,7 @@ pub enum PlaceMapError {
         /// The version it says.
         version: u32,
     },
-    /// A saved map whose network has another number of features than its groups have values.
+    /// The network of a saved map has another number of features than its groups have values.
     #[error(
         "the saved network has {found} features where its groups have {expected}: it was changed or cut off"
     )]
@@ -111,12 +111,12 @@ pub enum PlaceMapError {
         /// Number of features of the network.
         found: usize,
     },
-    /// A saved scale that is not above zero.
+    /// A saved scale is not above zero.
     #[error("the saved scale of the {group} is {scale}: it has to be finite and above 0")]
     BadScale {
-        /// The group.
+        /// Name of the group.
         group: &'static str,
-        /// The scale.
+        /// Saved scale.
         scale: f32,
     },
 }

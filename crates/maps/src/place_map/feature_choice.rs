@@ -3,7 +3,7 @@ use alloc::vec::Vec;
 
 use super::{ColourSpace, ImageFeature};
 
-/// One group of the features of a place: what one kind of sensor says.
+/// One group of the features of a place, from one kind of sensor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -30,8 +30,8 @@ pub enum FeatureGroup {
 pub enum FeatureScaling {
     /// All groups have the same mean squared distance: the variances of a group's values add up to
     /// one. So a group is one feature of equation 3.1, however many values it has: "in the case of
-    /// a matrix … the distance calculation is a Euclidean distance". Only so do the weights of
-    /// Table 3.1, 0.63 for images and 0.33 for odometry, make sense.
+    /// a matrix … the distance calculation is a Euclidean distance". The weights of Table 3.1, 0.63
+    /// for images and 0.33 for odometry, make sense only with this.
     #[default]
     Group,
     /// The values of a group have a mean variance of 1. A group's influence is then its number of
@@ -70,7 +70,7 @@ impl FeatureChoice {
         choice
     }
 
-    /// Sets how the groups are scaled.
+    /// Sets the scaling of the groups.
     #[must_use]
     pub const fn scaled(mut self, scaling: FeatureScaling) -> Self {
         self.scaling = scaling;

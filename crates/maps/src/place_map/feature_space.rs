@@ -6,8 +6,7 @@ use tolman_robot::{Picture, PinholeCamera};
 use super::record_span::RecordSpan;
 use super::{FeatureError, FeatureGroup, FeatureWeights, ImageFeature, PlaceRecord};
 
-/// The space in which places are compared: which group of features stands where in a vector, and
-/// how it is scaled.
+/// The space in which places are compared: the groups of features in a vector, and their scaling.
 ///
 /// A [`FeatureTable`](super::FeatureTable) makes one of records.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,10 +81,10 @@ impl FeatureSpace {
         self.parts.iter().map(|part| part.len).sum()
     }
 
-    /// Returns the features of a record that is in no table.
+    /// Returns the features of a record outside the table.
     ///
     /// # Errors
-    /// [`FeatureError`] if the record lacks a chosen feature; it is called record 0.
+    /// [`FeatureError`] if the record lacks a chosen feature; the error names it record 0.
     pub fn features(&self, of: &PlaceRecord) -> Result<Vec<f32>, FeatureError> {
         let mut features = Vec::with_capacity(self.dimension());
         for part in &self.parts {
@@ -111,7 +110,8 @@ impl FeatureSpace {
         self.parts.iter().flat_map(each).collect()
     }
 
-    /// Returns the unscaled values of the first group that `is` one, of a vector of features.
+    /// Returns the unscaled values, in a vector of features, of the first group for which `is` is
+    /// true.
     fn part(&self, features: &[f32], is: impl Fn(FeatureGroup) -> bool) -> Option<Vec<f32>> {
         let mut start = 0;
         for part in &self.parts {
@@ -124,8 +124,8 @@ impl FeatureSpace {
         None
     }
 
-    /// Returns the position of features by their odometry, m; `None` where the odometry is not
-    /// among them.
+    /// Returns the position in a vector of features, by odometry, m; `None` if odometry is not a
+    /// chosen feature.
     #[must_use]
     pub fn position(&self, features: &[f32]) -> Option<Point> {
         let values = self.part(features, |group| group == FeatureGroup::Odometry)?;
@@ -135,15 +135,15 @@ impl FeatureSpace {
         }
     }
 
-    /// Returns the ranges of features, m; `None` where they are not among them.
+    /// Returns the ranges in a vector of features, m; `None` if ranges are not a chosen feature.
     #[must_use]
     pub fn ranges(&self, features: &[f32]) -> Option<Vec<f64>> {
         let values = self.part(features, |group| group == FeatureGroup::Sonar)?;
         Some(values.into_iter().map(f64::from).collect())
     }
 
-    /// Returns the image of features as a picture in red, green and blue; `None` where it is not
-    /// among them.
+    /// Returns the image in a vector of features, in red, green and blue; `None` if images are not
+    /// a chosen feature.
     #[must_use]
     pub fn picture(&self, features: &[f32]) -> Option<Picture> {
         let (feature, values) = self.image(features)?;
@@ -155,7 +155,7 @@ impl FeatureSpace {
         })
     }
 
-    /// Returns the values of the pixels of the image of features, unscaled.
+    /// Returns the values of the image's pixels in a vector of features, unscaled.
     fn image(&self, features: &[f32]) -> Option<(ImageFeature, Vec<f32>)> {
         let image = |group| match group {
             FeatureGroup::Image(feature) => Some(feature),

@@ -23,7 +23,7 @@ pub enum ImageForm {
     },
 }
 
-/// The features of many records, scaled by how they vary over them.
+/// The features of many records, scaled by their variation over the records.
 ///
 /// ```
 /// use tolman_geom::{Heading, Point, Pose};
@@ -50,12 +50,12 @@ pub struct FeatureTable {
 }
 
 impl FeatureTable {
-    /// Returns the features of records. Include the records that a map is to be asked about.
+    /// Returns the features of records. Include the records that the map will be asked about.
     ///
     /// O(records × values); of images in [`ImageForm::Span`] O(records² × values) once.
     ///
     /// # Errors
-    /// If there are no records, or one lacks what the choice asks for.
+    /// If there are no records, or one lacks a chosen feature.
     pub fn of(
         records: &[PlaceRecord],
         choice: &FeatureChoice,
@@ -81,13 +81,13 @@ impl FeatureTable {
         Ok(Self { space, rows })
     }
 
-    /// Returns the space that the features lie in.
+    /// Returns the space of the features.
     #[must_use]
     pub const fn space(&self) -> &Arc<FeatureSpace> {
         &self.space
     }
 
-    /// Returns the features of a record; `None` beyond the last.
+    /// Returns the features of a record; `None` beyond the last record.
     #[must_use]
     pub fn row(&self, record: usize) -> Option<&[f32]> {
         self.rows.get(record).map(Vec::as_slice)
@@ -107,7 +107,7 @@ impl FeatureTable {
 }
 
 impl FeatureSpace {
-    /// Adds a group with the values of each record, and these to the rows.
+    /// Appends a group to the rows, with the values of each record.
     fn take_in(
         &mut self,
         group: FeatureGroup,
@@ -139,7 +139,7 @@ fn refuse_twice(choice: &FeatureChoice) -> Result<(), FeatureError> {
     })
 }
 
-/// Returns the values of a group of each record, unscaled and equally many.
+/// Returns the values of one group for each record, unscaled; all have the same number.
 fn of_all(records: &[PlaceRecord], group: FeatureGroup) -> Result<Vec<Vec<f32>>, FeatureError> {
     let values = records.iter().enumerate();
     let values = values.map(|(number, record)| group.values(record, number));

@@ -54,8 +54,8 @@ impl ImageFeature {
         self.len() == 0
     }
 
-    /// Returns the values of a picture, three a pixel, row by row from the top left: the left of
-    /// the picture stays on the left. Boxes that end within a pixel take their share of it.
+    /// Returns the values of a picture, three per pixel, row by row from the top left: the left of
+    /// the picture stays on the left. Boxes that end within a pixel count their share of it.
     /// O(pixels of the picture × boxes over each).
     pub(super) fn values(self, picture: &Picture) -> Vec<f32> {
         let columns = boxes(picture.width, self.width);
@@ -77,7 +77,7 @@ impl ImageFeature {
     }
 }
 
-/// A source pixel, and what part of the box it makes.
+/// A source pixel and its share of the box.
 type Part = (u32, f32);
 
 /// Cuts `source` pixels into `target` boxes of one size.

@@ -51,13 +51,13 @@ pub struct PlaceMap {
     pub(super) space: Arc<FeatureSpace>,
     pub(super) config: PlaceMapConfig,
     pub(super) gng: Gng<f32>,
-    /// The node nearest to the last record that was observed.
+    /// Node nearest to the last observed record.
     here: Option<UnitId>,
 }
 
 impl PlaceMap {
-    /// Makes an empty map, which [`observe`](Mapper::observe) fills. Its space is that of a table
-    /// of records like those to come, since features are scaled by how they vary.
+    /// Returns an empty map, which [`observe`](Mapper::observe) fills. Its space must come from a
+    /// table of records like those to come, since features are scaled by their variation.
     ///
     /// # Errors
     /// If a parameter or a weight is outside its range.
@@ -80,8 +80,8 @@ impl PlaceMap {
     }
 
     /// Learns from records of a table, by their numbers, in that order and as often as the
-    /// configuration says. It begins with two different ones of them drawn at random (step 0 of
-    /// section 3.3).
+    /// configuration says. It begins with two different records drawn at random (step 0 of section
+    /// 3.3).
     ///
     /// O(passes × records × nodes × values).
     ///
@@ -116,7 +116,7 @@ impl PlaceMap {
         &self.config
     }
 
-    /// Returns the space that its nodes lie in.
+    /// Returns the space of its nodes.
     #[must_use]
     pub fn space(&self) -> &FeatureSpace {
         &self.space
@@ -136,7 +136,7 @@ impl PlaceMap {
         features + network.edges().count() * size_of::<Edge>()
     }
 
-    /// Returns the node nearest to a record: the place where the map thinks it was recorded.
+    /// Returns the node nearest to a record: the place at which the map believes it was recorded.
     /// O(nodes × values).
     ///
     /// # Errors
@@ -145,8 +145,8 @@ impl PlaceMap {
         self.nearest_row(&self.space.features(record)?)
     }
 
-    /// Returns the node nearest to features, such as a row of the table it was learned from.
-    /// O(nodes × values).
+    /// Returns the node nearest to a vector of features, such as a row of its table. O(nodes ×
+    /// values).
     ///
     /// # Errors
     /// If these are not features of its space, or the map is empty.
@@ -179,8 +179,8 @@ impl PlaceMap {
         self.space.position(&self.features(node)?)
     }
 
-    /// Returns the look of a node, in red, green and blue: the image that was learned there. `None`
-    /// if the node does not exist, or images are not a chosen feature.
+    /// Returns the image that was learned at a node, in red, green and blue. `None` if the node
+    /// does not exist, or images are not a chosen feature.
     #[must_use]
     pub fn picture(&self, node: UnitId) -> Option<Picture> {
         self.space.picture(&self.features(node)?)
@@ -197,7 +197,7 @@ impl PlaceMap {
         Some(self.network().prototype(node).ok()?.collect())
     }
 
-    /// Returns the positions of the nodes, m, in the order of their ids; none for a map without
+    /// Returns the positions of the nodes, m, in the order of their ids; empty for a map without
     /// odometry.
     pub fn positions(&self) -> impl Iterator<Item = (UnitId, Point)> + '_ {
         let nodes = self.network().ids();

@@ -5,8 +5,8 @@ use tolman_robot::Snapshot;
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PlaceRecord {
-    /// Pose by odometry, relative to where the robot was put down.
+    /// Pose by odometry, relative to the pose where the robot was put down.
     pub odometry: Pose,
-    /// Perception of the robot there.
+    /// Snapshot at the place.
     pub snapshot: Snapshot,
 }

@@ -10,10 +10,10 @@ use alloc::vec::Vec;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct RecordSpan {
     mean: Vec<f32>,
-    /// The chosen vectors less the mean, one by one.
+    /// Chosen vectors minus the mean, one by one.
     chosen: Vec<f32>,
-    /// Lower triangle: row i has the coordinates of the i-th chosen vector. Rows follow each other,
-    /// each one longer.
+    /// Lower triangle: row i has the coordinates of the i-th chosen vector. Rows are stored one by
+    /// one, each longer than the one before.
     factor: Vec<f64>,
     /// Number of chosen vectors, which is the number of coordinates.
     rank: usize,
@@ -28,9 +28,9 @@ pub(super) struct Spanned {
 }
 
 impl RecordSpan {
-    /// Spans vectors of one length. Stops once the squared distance of each from the span is at
-    /// most the share `left_out` of their mean squared distance from their mean. O(n² (length +
-    /// n)).
+    /// Spans vectors of one length. Stops once every vector is near enough to the span: its squared
+    /// distance is at most the share `left_out` of their mean squared distance from their mean.
+    /// O(n² (length + n)).
     pub(super) fn of(vectors: &[Vec<f32>], left_out: f64) -> Spanned {
         let mean = mean(vectors);
         let centred: Vec<Vec<f32>> = vectors
@@ -52,8 +52,8 @@ impl RecordSpan {
         &self.chosen[index * length..(index + 1) * length]
     }
 
-    /// Returns the coordinates of any vector of the length, and so of the nearest point of the
-    /// span. O(rank (length + rank)).
+    /// Returns the coordinates of the point of the span nearest to a vector. O(rank (length +
+    /// rank)).
     pub(super) fn coordinates(&self, vector: &[f32]) -> Vec<f32> {
         let centred: Vec<f32> = vector.iter().zip(&self.mean).map(|(x, m)| x - m).collect();
         let mut solved: Vec<f64> = Vec::with_capacity(self.rank);
@@ -66,7 +66,7 @@ impl RecordSpan {
         solved.into_iter().map(|value| value as f32).collect()
     }
 
-    /// Returns the vector that has these coordinates. O(rank (length + rank)).
+    /// Returns the vector with these coordinates. O(rank (length + rank)).
     pub(super) fn vector(&self, coordinates: &[f32]) -> Vec<f32> {
         let mut parts: Vec<f64> = coordinates.iter().map(|value| f64::from(*value)).collect();
         for index in (0..self.rank.min(parts.len())).rev() {
@@ -87,12 +87,12 @@ impl RecordSpan {
     }
 }
 
-/// The factorization under way.
+/// The factorization in progress.
 struct Growing {
     vectors: Vec<Vec<f32>>,
     /// Coordinates by vector, as far as they are known.
     coordinates: Vec<Vec<f64>>,
-    /// By vector: the square of what its coordinates miss; nothing more of those that were chosen.
+    /// Squared distance of each vector from the span; `None` for chosen vectors.
     missing: Vec<Option<f64>>,
     chosen: Vec<usize>,
     enough: f64,
@@ -112,7 +112,7 @@ impl Growing {
         }
     }
 
-    /// Adds the vector that is farthest from the span; false where none is far enough.
+    /// Adds the vector that is farthest from the span. Returns `false` if none is far enough.
     fn grow(&mut self) -> bool {
         let candidates = self.missing.iter().enumerate();
         let candidates = candidates.filter_map(|(index, missing)| Some((index, (*missing)?)));
@@ -181,7 +181,7 @@ fn mean(vectors: &[Vec<f32>]) -> Vec<f32> {
     sums.into_iter().map(|sum| (sum / count) as f32).collect()
 }
 
-/// Terms that are summed apart, so that the processor can do them at once; the order is the same
+/// Number of partial sums, which the processor computes at once. The order of terms is the same
 /// everywhere.
 const LANES: usize = 8;
 

@@ -71,7 +71,7 @@ impl TryFrom<SavedPlaceMap> for PlaceMap {
 }
 
 impl SavedPlaceMap {
-    /// Refuses what is of another format, and scales that would undo nothing.
+    /// Refuses other formats, and scales that are not above zero.
     fn check(&self) -> Result<(), PlaceMapError> {
         if self.format != FORMAT || self.version != VERSION {
             return Err(PlaceMapError::WrongFormat {

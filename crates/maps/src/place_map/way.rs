@@ -40,7 +40,7 @@ impl PlaceMap {
         )
     }
 
-    /// Returns how far two nodes lie apart, mm.
+    /// Returns the distance between two nodes, mm.
     fn length(&self, a: UnitId, b: UnitId) -> u32 {
         match (self.position(a), self.position(b)) {
             (Some(a), Some(b)) => libm::round(1000.0 * (b - a).norm()) as u32,

@@ -7,26 +7,26 @@ use crate::tangent::difference;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PoseEdge {
-    /// The pose from which it was measured.
+    /// Pose from which it was measured.
     pub from: u32,
-    /// The pose that was measured.
+    /// Pose that was measured.
     pub to: u32,
     /// Pose of `to` relative to `from`.
     pub measured: Pose,
     /// The inverse of the measurement's covariance: x and y in m, ahead and to the left of the
     /// measured pose, and the heading in rad.
     pub information: Matrix3<f64>,
-    /// Whether it can be wrong altogether.
+    /// Kind of measurement, which decides whether it may be entirely wrong.
     pub kind: PoseEdgeKind,
 }
 
-/// Whether an edge can be wrong altogether.
+/// Kind of a measurement, which decides whether it may be entirely wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum PoseEdgeKind {
-    /// Dead reckoning, which errs but does not lie.
+    /// Odometry, which has errors but is never entirely wrong.
     Odometry,
-    /// A place that was recognized as one seen before.
+    /// A recognized place, which may be mistaken.
     Closure,
 }
 
@@ -74,7 +74,8 @@ fn rotation(heading: Heading) -> Matrix2<f64> {
     Matrix2::new(unit.x, -unit.y, unit.y, unit.x)
 }
 
-/// Returns a change of position by position and by heading, and of heading by heading.
+/// Returns two derivatives: of the position by position and by heading, and of the heading by
+/// heading.
 fn block(position: Matrix2<f64>, by_heading: Vector2<f64>, heading: f64) -> Matrix3<f64> {
     let mut all = Matrix3::zeros();
     all.fixed_view_mut::<2, 2>(0, 0).copy_from(&position);

@@ -6,7 +6,7 @@ use thiserror::Error;
 pub enum PoseGraphError {
     /// There is no such pose.
     #[error(
-        "the edge from {from} to {to} names a pose that does not exist: the graph has {poses} poses"
+        "the edge from {from} to {to} names a pose that does not exist: add it first; the graph has {poses} poses"
     )]
     NoPose {
         /// The pose it leaves.
@@ -19,7 +19,7 @@ pub enum PoseGraphError {
     /// The edge joins a pose with itself.
     #[error("an edge joins pose {pose} with itself: leave it out")]
     Loop {
-        /// The pose.
+        /// Id of the pose.
         pose: u32,
     },
     /// A number of the measurement or of the information is not finite.

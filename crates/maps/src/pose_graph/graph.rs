@@ -45,7 +45,7 @@ impl PoseGraph {
         }
     }
 
-    /// Returns the poses, by id. The first never moves: all others are where they are seen from it.
+    /// Returns the poses, by id. The first never moves; the others are relative to it.
     #[must_use]
     pub fn poses(&self) -> &[Pose] {
         &self.poses
@@ -63,13 +63,13 @@ impl PoseGraph {
         edges.filter(|edge| edge.kind == PoseEdgeKind::Closure)
     }
 
-    /// Adds a pose where it is believed to be, and returns its id.
+    /// Adds a pose at its believed position, and returns its id.
     pub fn add_pose(&mut self, pose: Pose) -> u32 {
         self.poses.push(pose);
         self.poses.len() as u32 - 1
     }
 
-    /// Adds what was measured between two poses.
+    /// Adds a measurement between two poses.
     ///
     /// # Errors
     /// If there are no such poses, they are the same, a number is not finite, or the information is
@@ -106,8 +106,8 @@ impl PoseGraph {
         }
     }
 
-    /// Replaces the measurement of every closure by the present poses, after its source was
-    /// corrected. O(edges).
+    /// Replaces the measurement of every closure by its poses' present relation, after its source
+    /// was corrected. O(edges).
     pub fn measure_closures_anew(&mut self) {
         for edge in &mut self.edges {
             if edge.kind == PoseEdgeKind::Closure {

@@ -11,13 +11,13 @@ use crate::tangent::moved;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct OptimizerConfig {
-    /// Most steps of Levenberg and Marquardt, at least 1.
+    /// Maximum number of steps of Levenberg and Marquardt, at least 1.
     pub most_steps: u32,
-    /// Most iterations of conjugate gradients in a step, at least 1.
+    /// Maximum number of iterations of conjugate gradients in a step, at least 1.
     pub most_iterations: usize,
-    /// Share of the error by which a step must lower it, or the optimizer ends.
+    /// Minimum relative reduction of the error by a step; below it the optimizer ends.
     pub tolerance: f64,
-    /// The squared error at which a closure counts a quarter; `None` to believe all closures.
+    /// Squared error at which a closure weighs a quarter; `None` to believe all closures.
     pub doubt: Option<f64>,
 }
 
@@ -33,8 +33,8 @@ impl OptimizerConfig {
         }
     }
 
-    /// Returns least squares that doubts closures: one in a thousand right ones of three degrees of
-    /// freedom has a squared error above 16.
+    /// Returns least squares that doubts closures. One in a thousand right closures, with three
+    /// degrees of freedom, has a squared error above 16.
     #[must_use]
     pub const fn robust() -> Self {
         Self {
@@ -43,7 +43,7 @@ impl OptimizerConfig {
         }
     }
 
-    /// Returns what an edge of squared error χ² adds to the whole (Geman and McClure).
+    /// Returns an edge's part of the total cost, given its squared error χ² (Geman and McClure).
     fn cost(&self, edge: &PoseEdge, squared: f64) -> f64 {
         match (self.doubt, edge.kind) {
             (Some(doubt), PoseEdgeKind::Closure) => doubt * squared / (doubt + squared),
@@ -51,7 +51,7 @@ impl OptimizerConfig {
         }
     }
 
-    /// Returns how much an edge of squared error χ² counts: the derivative of its cost.
+    /// Returns an edge's weight, given its squared error χ²: the derivative of its cost.
     fn weight(&self, edge: &PoseEdge, squared: f64) -> f64 {
         match (self.doubt, edge.kind) {
             (Some(doubt), PoseEdgeKind::Closure) => {
@@ -68,7 +68,7 @@ impl OptimizerConfig {
 pub struct Optimized {
     /// Number of steps made.
     pub steps: u32,
-    /// The sum of squared errors before, doubted closures less; no unit.
+    /// Sum of squared errors before, with doubted closures weighing less; no unit.
     pub error_before: f64,
     /// Error after the optimization; never larger than before.
     pub error_after: f64,
@@ -76,13 +76,13 @@ pub struct Optimized {
     pub has_converged: bool,
 }
 
-/// The damping of the first step, and the most before it is given up.
+/// Damping of the first step.
 const FIRST_DAMPING: f64 = 1e-6;
 const MOST_DAMPING: f64 = 1e6;
 
 impl PoseGraph {
     /// Moves all poses but the first to agree with the edges, and returns the result. It does not
-    /// depend on where the first pose lies.
+    /// depend on the first pose.
     ///
     /// # Complexity
     /// O(steps · iterations · edges).
@@ -164,8 +164,8 @@ mod tests {
 
     type Errors = Vec<(f64, f64, f64)>;
 
-    /// Returns a way round a circle, whose odometry and closures err by `errors`; some of the
-    /// closures lie.
+    /// Returns a graph round a circle, whose odometry and closures err by `errors`. Some of the
+    /// closures are wrong.
     fn way(errors: &Errors, lies: usize, first: Pose) -> (Vec<Pose>, PoseGraph) {
         let count = errors.len() as u32;
         let along = |index: u32| 0.4 * f64::from(index);

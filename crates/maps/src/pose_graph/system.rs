@@ -1,4 +1,5 @@
-//! The linear system of one step: (JᵀΩJ + λD) δ = −JᵀΩe, by edges and never as a whole.
+//! Solves the linear system of one step, (JᵀΩJ + λD) δ = −JᵀΩe, edge by edge without storing the
+//! matrix.
 
 use alloc::vec;
 use alloc::vec::Vec;
@@ -9,7 +10,7 @@ use tolman_geom::nalgebra::{Matrix3, Vector3};
 use super::PoseEdge;
 use super::edge::Linearized;
 
-/// One linear system. Pose 0 is held.
+/// One linear system. Pose 0 is fixed.
 pub(super) struct LinearSystem<'a> {
     edges: &'a [PoseEdge],
     linearized: Vec<Linearized>,
@@ -22,7 +23,7 @@ pub(super) struct LinearSystem<'a> {
 }
 
 impl<'a> LinearSystem<'a> {
-    /// Returns the system about `poses`, in which each edge counts as `weight` says. O(edges).
+    /// Returns the system about `poses`, in which `weight` gives each edge's weight. O(edges).
     pub(super) fn about(
         poses: &[Pose],
         edges: &'a [PoseEdge],
@@ -114,7 +115,8 @@ impl<'a> LinearSystem<'a> {
     }
 }
 
-/// The squared residual, as the preconditioner measures it, that is small enough beside the first.
+/// Ratio of the squared residual, in the preconditioner's measure, to the first one at which the
+/// iteration ends.
 const ENOUGH: f64 = 1e-16;
 
 fn damped(block: &Matrix3<f64>, damping: f64) -> Matrix3<f64> {

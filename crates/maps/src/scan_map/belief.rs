@@ -10,9 +10,9 @@ use super::evidence::{Evidence, Explanation};
 /// Belief of a robot about its position: a Bayes filter over the [`Standpoints`] of its map.
 #[derive(Clone, Debug)]
 pub struct StandpointBelief {
-    /// The probability of each standpoint.
+    /// Probability of each standpoint.
     mass: Vec<f32>,
-    /// Number of looks in a row that nothing has fitted.
+    /// Number of looks in a row that nothing fitted.
     surprises: u32,
 }
 
@@ -20,22 +20,24 @@ pub struct StandpointBelief {
 const NEGLIGIBLE: f32 = 1e-9;
 /// Factor on the probability of a move through a wall.
 const THROUGH_A_WALL: f64 = 0.01;
-/// Likelihood of a look, by the belief, below which it is suspect.
+/// Likelihood of a look under the belief below which the look is suspect.
 const SUSPECT: f64 = 1e-3;
 /// Probability, at each look, that the robot was lifted since the look before.
 const LIFTED: f64 = 1e-7;
-/// Probability, at each look, that a wall is in sight that was not there when the map was learned.
+/// Probability, at each look, that a wall in sight is newer than the map.
 const NEW_WALLS: f64 = 1e-2;
-/// Share of the belief near the likeliest standpoint from which the robot is sure of its place.
+/// Minimum share of the belief near the likeliest standpoint at which the robot is sure of its
+/// place.
 const SURE: f64 = 0.9;
 const SURE_WITHIN: f64 = 0.5;
-/// Probability that the landmark of the goal is not sensed where the map has it: near its border.
+/// Probability that the goal's landmark is not sensed where the map has it, which happens near its
+/// border.
 const UNSENSED: f32 = 0.05;
-/// Number of such scans in a row after which it starts again.
+/// Number of unexplained scans in a row after which the belief starts again.
 const MOST_SURPRISES: u32 = 3;
 
 impl StandpointBelief {
-    /// Returns the belief of a robot that has no idea.
+    /// Returns a uniform belief.
     #[must_use]
     pub fn anywhere(on: &Standpoints) -> Self {
         Self {
@@ -74,7 +76,7 @@ impl StandpointBelief {
         near.map(|(_, mass)| f64::from(*mass)).sum()
     }
 
-    /// Returns the same belief on other standpoints, near those that it was made `on`.
+    /// Returns the same belief on other standpoints, near those for which it was made, `on`.
     /// O(standpoints · log standpoints).
     #[must_use]
     pub fn carried_over(&self, on: &Standpoints, to: &Standpoints) -> Self {
@@ -91,7 +93,7 @@ impl StandpointBelief {
         carried
     }
 
-    /// Follows a robot that came `moved` along the compass's axes, m, give or take `sd`.
+    /// Moves the belief by `moved` along the compass's axes, m, with standard deviations `sd`.
     /// O(standpoints believed in).
     pub fn moved(&mut self, on: &Standpoints, moved: Vector, sd: Vector) {
         let ground = on.chart().ground();
@@ -171,8 +173,7 @@ impl StandpointBelief {
         }
     }
 
-    /// Weighs what it believes by the landmark of the goal, which the robot does not sense.
-    /// O(standpoints).
+    /// Weighs the belief by the goal's landmark, which the robot does not sense. O(standpoints).
     pub fn missed_the_goal(&mut self, on: &Standpoints) {
         for number in on.sensing_goal() {
             if let Some(mass) = self.mass.get_mut(*number as usize) {
@@ -182,7 +183,7 @@ impl StandpointBelief {
         self.normalize(on);
     }
 
-    /// Weighs what it believes by the landmark of the goal, which the robot senses. O(standpoints).
+    /// Weighs the belief by the goal's landmark, which the robot senses. O(standpoints).
     pub fn sensed_the_goal(&mut self, on: &Standpoints) {
         let senses = |number: &u32| {
             on.goals().binary_search(number).is_ok()
@@ -208,8 +209,7 @@ impl StandpointBelief {
     }
 }
 
-/// Returns where a way that is sure to `sd` may have ended, from where it should have, each with
-/// its share.
+/// Returns the errors of a way with standard deviations `sd`, m, each with its probability.
 fn spread(sd: Vector) -> impl Iterator<Item = (Vector, f64)> {
     let fine = 0.5 * Standpoints::SPACING;
     let offsets = move |sd: f64| {

@@ -9,7 +9,7 @@ use super::wall_grid::GridIndex;
 /// them.
 #[derive(Debug, Default)]
 pub(super) struct Branches {
-    /// Knots by number; a number that was removed is missing.
+    /// Knots by number; numbers of removed knots are missing.
     knots: BTreeMap<usize, Knot>,
     branches: Vec<Branch>,
 }
@@ -60,8 +60,8 @@ impl Branch {
 }
 
 impl Branches {
-    /// Returns the branches of a skeleton of ground that is `radius` m off the walls. O(cells · log
-    /// cells).
+    /// Returns the branches of a skeleton of ground that lies at least `radius` off the walls, m.
+    /// O(cells · log cells).
     pub(super) fn of(skeleton: &Skeleton, radius: f64) -> Self {
         let beside: BTreeMap<GridIndex, Vec<GridIndex>> = skeleton
             .cells()
@@ -115,12 +115,12 @@ impl Branches {
         &self.knots
     }
 
-    /// Returns the branches.
+    /// Returns the branches between knots.
     pub(super) fn branches(&self) -> &[Branch] {
         &self.branches
     }
 
-    /// Takes away what leads into corners alone, the shortest first.
+    /// Removes branches that only lead into corners, the shortest first.
     pub(super) fn prune(&mut self) {
         while let Some(spur) = self.shortest(|graph, degrees, branch| {
             let [root, tip] = match branch.ends {
@@ -144,8 +144,8 @@ impl Branches {
         }
     }
 
-    /// Merges knots that are one place: they lie near each other, or the way between them is
-    /// nowhere narrower than `open` m off the walls.
+    /// Merges knots that are one place: near each other, or joined by a way everywhere at least
+    /// `open` off the walls, m.
     pub(super) fn merge(&mut self, open: f64) {
         while let Some(link) = self.shortest(|graph, degrees, branch| {
             let [a, b] = branch.ends;
@@ -173,9 +173,9 @@ impl Branches {
         }
     }
 
-    /// Returns the knot nearest to `at`, of those within `reach` cells that `fits` by number and
-    /// cell. If there is none, makes one on the nearest branch; without branches, takes the nearest
-    /// knot. `None` if the graph has no knots.
+    /// Returns the knot nearest to `at` within `reach` cells for which `fits` is true. If there is
+    /// none, makes one on the nearest branch; without branches, returns the nearest knot. `None` if
+    /// the graph has no knots.
     pub(super) fn knot_at(
         &mut self,
         at: GridIndex,
@@ -239,7 +239,7 @@ impl Branches {
         number
     }
 
-    /// Joins the two branches at a knot that nothing else ends at.
+    /// Joins the two branches at a knot that has no others.
     fn dissolve(&mut self, knot: usize) {
         let mut at_it =
             (0..self.branches.len()).filter(|index| self.branches[*index].ends.contains(&knot));
@@ -279,7 +279,7 @@ impl Branches {
     }
 }
 
-/// Returns the cells of the line from `at` by `way` to the next knot, both ends included.
+/// Returns the cells of the line from `at` through `way` to the next knot, both ends included.
 fn follow(
     beside: &BTreeMap<GridIndex, Vec<GridIndex>>,
     at: GridIndex,

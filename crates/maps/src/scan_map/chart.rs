@@ -8,8 +8,8 @@ use tolman_robot::{MapLink, MapPlace, MapView};
 
 use super::{Clearings, GroundPlan, ScanMap, ScanPlace, WallGrid};
 
-/// The result of a [`ScanMap`] once learning is over: its ground, its places, and the ways gone
-/// between them.
+/// The final form of a [`ScanMap`] after learning: its ground, its places, and the links between
+/// them.
 ///
 /// Navigation needs no more, and a file holds no more.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub struct ScanChart {
     surprise: f64,
 }
 
-/// A [`ScanChart`] as it is written.
+/// A [`ScanChart`] in the form in which it is written.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ChartParts {
@@ -36,7 +36,7 @@ pub struct ChartParts {
     pub links: Vec<[u32; 2]>,
     /// Positions where the landmark of the goal was sensed, m.
     pub goal: Vec<Point>,
-    /// Positions where the landmark of the start was sensed, m; none if the map begins there.
+    /// Positions where the landmark of the start was sensed, m; empty if the map begins there.
     #[cfg_attr(
         feature = "serde",
         serde(default, skip_serializing_if = "Vec::is_empty")
@@ -57,7 +57,7 @@ pub struct ChartParts {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ChartError {
-    /// The radius cannot be a robot's.
+    /// The radius is not valid for a robot.
     #[error("its robot keeps {radius} m from walls, expected 0.01 to 10: learn the map again")]
     Radius {
         /// The radius, m.
@@ -78,17 +78,17 @@ pub enum ChartError {
         /// Their size, m.
         found: f64,
     },
-    /// Places or the goal lie nowhere.
+    /// A place or a goal's position is not finite or too far away.
     #[error("{what} {number} is at ({}, {}) m, which is not a valid position: learn the map again", at.x, at.y)]
     Nowhere {
         /// Kind of thing at the position.
         what: &'static str,
-        /// Its number, from 0.
+        /// Index of that thing, from 0.
         number: usize,
         /// The position, m.
         at: Point,
     },
-    /// A link is not between two places, or out of order.
+    /// A link does not join two places, or is out of order.
     #[error(
         "link {number} goes from place {from} to place {to} of {places}; expected the lower id first, and each link once and in order: learn the map again"
     )]
@@ -111,21 +111,21 @@ pub enum ChartError {
     /// A row is not as long as the first one.
     #[error("row {row} has {found} cells, expected {expected}: learn the map again")]
     Row {
-        /// The row, from 0.
+        /// Index of the row, from 0.
         row: usize,
         /// Number of cells in the row.
         found: usize,
         /// Number of cells in the first row.
         expected: usize,
     },
-    /// A letter means no ground.
+    /// A letter stands for no kind of ground.
     #[error(
         "row {row}, cell {column}: {letter:?} is not ground; expected '#', '.' or a space: learn the map again"
     )]
     Letter {
-        /// The row, from 0.
+        /// Index of the row, from 0.
         row: usize,
-        /// The cell in it, from 0.
+        /// Index of the cell in the row, from 0.
         column: usize,
         /// The letter found.
         letter: char,
@@ -136,7 +136,7 @@ pub enum ChartError {
 const FARTHEST: f64 = 5e4;
 
 impl ScanChart {
-    /// Returns the size of places, links, walls and the landmark's positions, bytes. O(1).
+    /// Returns the memory of places, links, walls and the landmark's positions, bytes. O(1).
     #[must_use]
     pub const fn bytes(&self) -> usize {
         size_of_val(self.places.as_slice())
@@ -211,8 +211,8 @@ impl ScanChart {
         })
     }
 
-    /// Returns the chart with walls at these points, too, as far as they lie on its ground. O(cells
-    /// + points).
+    /// Returns the chart with additional walls at these points, as far as they lie on its ground.
+    /// O(cells + points).
     #[must_use]
     pub fn with_walls(&self, at: &[Point]) -> Self {
         Self {
@@ -221,7 +221,7 @@ impl ScanChart {
         }
     }
 
-    /// Returns the ground.
+    /// Returns the ground: walls, floor and unknown cells.
     #[must_use]
     pub const fn ground(&self) -> &GroundPlan {
         &self.ground
@@ -239,7 +239,7 @@ impl ScanChart {
         &self.goal
     }
 
-    /// Returns the positions at which the landmark of the start was sensed, m; nothing if the map
+    /// Returns the positions at which the landmark of the start was sensed, m; empty if the map
     /// begins there.
     #[must_use]
     pub fn start(&self) -> &[Point] {
@@ -252,8 +252,8 @@ impl ScanChart {
         Clearings::new(grid, self.radius)
     }
 
-    /// Returns the reason, found in the map itself, why the map is doubtful, in a sentence without
-    /// a full stop. `None` if nothing speaks against it.
+    /// Returns the reason in the map itself to doubt it, as a sentence without a full stop. `None`
+    /// if there is none.
     #[must_use]
     pub fn doubt(&self) -> Option<&'static str> {
         if self.goal.is_empty() {
@@ -269,8 +269,8 @@ impl ScanChart {
         self.radius
     }
 
-    /// Returns the places along a way of fewest links from one to the nearest of others, both ends
-    /// included; `None` if none leads there. O(places + links).
+    /// Returns the places along a way of fewest links from one place to the nearest of others, both
+    /// ends included. `None` if there is no way. O(places + links).
     #[must_use]
     pub fn way(&self, from: u32, to: &[u32]) -> Option<Vec<u32>> {
         let both_ways = |[a, b]: &[u32; 2]| [(*a, *b, 1), (*b, *a, 1)];
@@ -279,7 +279,7 @@ impl ScanChart {
         path_to(&arcs, from, |place| to.contains(&place))
     }
 
-    /// Returns places and links as any scorer and any drawing can read them. O(places + links).
+    /// Returns places and links in the form that scorers and drawings read. O(places + links).
     #[must_use]
     pub fn view(&self) -> MapView {
         view(&self.places, self.links.iter().copied())

@@ -14,21 +14,19 @@ pub struct Clearings<'a> {
     radius: f64,
 }
 
-/// Distances from everywhere to the nearest place where the robot has not been, as far as they were
-/// computed.
+/// Distances to the nearest ground where the robot has not been, as far as they were computed.
 #[derive(Debug)]
 pub struct WayToGap<'a> {
     clearings: &'a Clearings<'a>,
-    /// Cells to go, by slot.
+    /// Number of cells to the gap, by slot.
     cells: Vec<u32>,
 }
 
 const UNREACHED: u32 = u32::MAX;
 
-/// Number of cells on either side of a point that a robot can stand at.
+/// Half-width of the square round a point whose cells count as near, cells.
 const BY: i32 = 5;
-/// Number of cells beyond the robot for which the way is computed: as far as an action may go
-/// wrong.
+/// Number of cells beyond the robot for which the way is computed: the greatest error of an action.
 const ASTRAY: u32 = 16;
 
 impl<'a> Clearings<'a> {
@@ -75,8 +73,8 @@ impl<'a> Clearings<'a> {
         })
     }
 
-    /// Returns whether ground is left, from any of the places, where the robot could stand and has
-    /// not been. O(cells).
+    /// Returns whether any ground remains, from any of the places, where the robot could stand and
+    /// has not been. O(cells).
     #[must_use]
     pub fn has_gap(&self, places: impl IntoIterator<Item = Point>) -> bool {
         let starts: Vec<GridIndex> = places
@@ -87,8 +85,8 @@ impl<'a> Clearings<'a> {
         gap.is_some()
     }
 
-    /// Returns which cells the robot can stand in and come to from any of the places, by slot of
-    /// the grid. O(cells).
+    /// Returns whether the robot can stand in each cell and come to it from any of the places, by
+    /// slot of the grid. O(cells).
     pub(super) fn reached(&self, places: impl IntoIterator<Item = Point>) -> Vec<bool> {
         let starts = places.into_iter().map(index_of);
         let starts: Vec<GridIndex> = starts
@@ -98,8 +96,8 @@ impl<'a> Clearings<'a> {
         cells.into_iter().map(|cells| cells != UNREACHED).collect()
     }
 
-    /// Spreads from cells over where the robot can stand until `ends` says so; returns the cell
-    /// where it ended, and the cells gone to each.
+    /// Spreads from `starts` over the ground where the robot can stand until `ends` returns `true`.
+    /// Returns the cell where it ended, and the number of cells to each.
     fn flood(
         &self,
         from: &[GridIndex],
@@ -182,7 +180,7 @@ mod tests {
     use super::super::GroundKind;
     use super::*;
 
-    /// Less than a cell: the robot stands in every cell of floor.
+    /// Radius below a cell's, so that the robot stands in every cell of floor.
     const RADIUS: f64 = 0.04;
 
     /// Returns the grid of a drawing whose first row is the lowest: `#` is wall, a space unknown,
@@ -201,7 +199,7 @@ mod tests {
         grid
     }
 
-    /// A corridor one cell wide from column 1 on, visited up to `visited`.
+    /// Returns a corridor one cell wide from column 1 on, visited up to `visited`.
     fn corridor(length: usize, visited: usize) -> WallGrid {
         let wall = "#".repeat(length + 2);
         let (been, left) = ("v".repeat(visited), ".".repeat(length - visited));

@@ -3,14 +3,13 @@
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct ScanMapConfig {
-    /// Distance that the robot keeps from walls, m: its radius, minus the coarseness of the map's
-    /// cells.
+    /// Distance that the robot keeps from walls, m: its radius, minus the map's resolution.
     pub radius: f64,
     /// Minimum distance of two places, m.
     pub spacing_of_places: f64,
-    /// Maximum distance of ground from the robot's way, in sight of it, that needs no visit, m.
+    /// Maximum distance from the robot's way, m, at which ground in sight counts as visited.
     pub reach_of_visit: f64,
-    /// Minimum distance of scans that walls are drawn from, m.
+    /// Minimum distance of scans from which walls are drawn, m.
     pub spacing_of_scans: f64,
     /// Maximum distance between the expected and the fitted position of a scan, m; 0 keeps the
     /// expected one.

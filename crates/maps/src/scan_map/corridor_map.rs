@@ -10,7 +10,7 @@ use super::wall_grid::{GridIndex, index_of, middle};
 use super::{ScanChart, WallGrid};
 
 /// The places of a [`ScanChart`] where corridors meet or end or a landmark stands, and the ways
-/// between them. They come from the middle lines of its ground.
+/// between them. They follow from the middle lines of its ground.
 ///
 /// A room is one place from which ways lead through its gateways.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -51,10 +51,10 @@ const HAS_NOTHING: f64 = 0.3;
 /// Distance from the middle of a place within which a robot is at it, as a share of the corridors'
 /// width.
 const REACH: f64 = 0.33;
-/// Distance within which a robot passes a place, as a multiple of that.
+/// Distance within which a robot passes a place, as a multiple of [`REACH`].
 const PASSED: f64 = 1.8;
-/// Distance into the next corridor's width at which a sensed goal counts as two, as a share of that
-/// width.
+/// Minimum distance by which a sensed goal extends into the next corridor to count as two, as a
+/// share of the corridors' width.
 const BORDER: f64 = 0.2;
 
 impl CorridorMap {
@@ -107,13 +107,13 @@ impl CorridorMap {
         &self.places
     }
 
-    /// Returns the ways.
+    /// Returns the ways between places.
     #[must_use]
     pub fn ways(&self) -> &[CorridorWay] {
         &self.ways
     }
 
-    /// Returns the place that a robot is at; `None` if it is on its way. O(places).
+    /// Returns the place where a robot is; `None` if it is on its way. O(places).
     #[must_use]
     pub fn at(&self, position: Point) -> Option<u32> {
         let far = (0..)
@@ -124,15 +124,14 @@ impl CorridorMap {
             .map(|(_, number)| number)
     }
 
-    /// Returns whether it has open ground, which is one place however large it is.
+    /// Returns whether a place has open ground, which is one place however large it is.
     #[must_use]
     pub const fn is_open(&self) -> bool {
         self.is_open
     }
 
-    /// Returns the place that a robot was at at each point of its trail; `None` where it was on its
-    /// way. A place that it passed between two points it was at when it was nearest. O(points ·
-    /// places).
+    /// Returns the place of a robot at each point of its trail; `None` where it was on its way. A
+    /// place that it passed between two points counts at the nearest point. O(points · places).
     #[must_use]
     pub fn visits(&self, trail: &[Point]) -> Vec<Option<u32>> {
         let mut visits: Vec<Option<u32>> = trail.iter().map(|at| self.at(*at)).collect();
@@ -168,14 +167,14 @@ impl CorridorMap {
     }
 }
 
-/// Returns whether the robot stood about a point and sensed no landmark.
+/// Returns whether the robot stood near a point and sensed no landmark.
 fn has_nothing(chart: &ScanChart, at: Point, width: f64) -> bool {
     let mut places = chart.places().iter();
     places
         .any(|place| place.landmark.is_none() && (place.position - at).norm() < HAS_NOTHING * width)
 }
 
-/// Returns where landmarks stand, and where the robot was put down.
+/// Returns the cells of landmarks, and the cell where the robot was put down, which may have none.
 fn landmarks(
     chart: &ScanChart,
     width: f64,
@@ -201,8 +200,8 @@ fn landmarks(
     goals.chain(start).chain(others)
 }
 
-/// Returns the positions of the goal that was sensed at these points: one for each corridor side by
-/// side there.
+/// Returns the positions of the goal that was sensed at these points: one for each of adjacent
+/// corridors.
 fn goals(sensed: &[Point], width: f64) -> Vec<Point> {
     let Some([low, high]) = bounds(sensed) else {
         return Vec::new();

@@ -1,11 +1,11 @@
 use super::rays::{RANGE_UNIT, UNKNOWN};
 
-/// The best explanation of what a robot saw.
+/// Best explanation of a scan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Explanation {
-    /// The robot's map, about where it believed to be.
+    /// The known walls, seen from near the believed position.
     AsKnown,
-    /// Walls that were not there when the map was learned.
+    /// Walls that were built after the map was learned.
     NewWalls,
     /// A lift of the robot.
     Lifted,
@@ -21,34 +21,33 @@ pub(super) struct Evidence {
     least: f64,
 }
 
-/// By how much a scan differs from what the map shows at a standpoint: mean squares, in standard
-/// deviations of a range.
+/// Difference of a scan from a standpoint's view: mean squares, in standard deviations of a range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Misfit {
-    /// Misfit of all beams; `None` if the map does not know what is seen there.
+    /// Misfit of all beams; `None` if the map does not know the view.
     all: Option<f64>,
     /// Misfit of the beams that do not end on new walls; `None` if no new wall is in sight.
     but_for_new_walls: Option<f64>,
 }
 
-/// Standard deviation of a range from that at the nearest standpoint, m.
+/// Standard deviation of a range from the range at the nearest standpoint, m.
 const RANGE_SD: f64 = 0.075;
-/// Number of standard deviations above which a beam has met something else. A larger difference
-/// tells nothing more.
+/// Number of standard deviations above which a beam has met something else. Larger differences add
+/// no evidence.
 const OUTLIER: f64 = 3.0;
 /// Weight of all beams together, in independent beams: beams that see the same walls are
 /// correlated.
 const INDEPENDENT_BEAMS: f64 = 8.0;
-/// Misfit below which a better fit tells nothing more: the map's own errors are as large, and occur
+/// Misfit below which a better fit adds no evidence: the map's own errors are as large, and occur
 /// in every look.
 const GOOD: f64 = 0.6;
-/// Misfit of a view that the map does not have: that of a wrong place which looks similar.
+/// Misfit of a view that the map does not have: that of a wrong place with a similar view.
 const UNSHOWN: f64 = 2.0;
-/// Mean square misfit from which a scan fits nowhere.
+/// Mean square misfit above which a scan fits nowhere.
 const SURPRISE: f64 = 3.0;
 /// Misfit below which a scan fits well, mean square.
 const WELL: f64 = 1.5;
-/// Minimum number of adjacent beams that a new wall ends.
+/// Minimum number of adjacent beams that end on a new wall.
 const BEAMS_OF_A_WALL: u32 = 8;
 
 impl Default for Evidence {
@@ -67,7 +66,7 @@ impl Evidence {
         self.least = self.least.min(misfit.all.unwrap_or(f64::INFINITY));
     }
 
-    /// Returns whether there is a standpoint where the map shows what could be the scan.
+    /// Returns whether the scan fits the map's view at any standpoint.
     pub(super) fn fits_somewhere(&self) -> bool {
         self.least <= SURPRISE
     }
@@ -83,13 +82,13 @@ impl Evidence {
     }
 }
 
-/// Returns whether a beam ends long before the wall that the map shows.
+/// Returns whether a beam ends long before the map's wall.
 pub(super) fn ends_before(seen: f64, shown: u8) -> bool {
     shown != UNKNOWN && seen < f64::from(shown) * RANGE_UNIT - OUTLIER * RANGE_SD
 }
 
 impl Misfit {
-    /// Compares ranges with those that the map shows, beam by beam, in [`RANGE_UNIT`]s. O(beams).
+    /// Compares ranges with the map's ranges, beam by beam, in [`RANGE_UNIT`]s. O(beams).
     pub(super) fn of(seen: &[f64], shown: impl Iterator<Item = u8>) -> Self {
         let (mut all, mut old) = (Sum::default(), Sum::default());
         let mut new = Run::default();
@@ -119,7 +118,7 @@ impl Misfit {
         self.but_for_new_walls.is_some_and(|misfit| misfit < WELL)
     }
 
-    /// Returns the likelihood of the scan.
+    /// Returns the likelihood of the scan without new walls.
     pub(super) fn likelihood(self) -> f64 {
         likelihood(self.all.unwrap_or(UNSHOWN))
     }
@@ -148,10 +147,10 @@ impl Sum {
     }
 }
 
-/// Number of adjacent beams with something in common, round the circle.
+/// Lengths of runs of adjacent beams with something in common, round the circle.
 #[derive(Default)]
 struct Run {
-    /// The run from the first beam on.
+    /// Length of the run that begins at the first beam.
     first: u32,
     has_ended: bool,
     last: u32,

@@ -5,39 +5,41 @@ use tolman_robot::Scan;
 
 use super::WallGrid;
 
-/// Position at which a scan fits the walls, near where it was expected.
+/// Position at which a scan fits the walls, near the expected one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ScanFit {
     /// The position.
     pub(super) at: Point,
-    /// Its variance along each axis, m²: as before along an axis on which the walls tell nothing.
+    /// Variance of the position along each axis, m²: unchanged along an axis on which the walls
+    /// tell nothing.
     pub(super) variance: Vector,
     /// How well the compared beams meet walls, 0 to 1; 1 if none could be compared.
     pub(super) agreement: f64,
 }
 
-/// Distance from every wall beyond which a beam's end does not fit at all, m.
+/// Distance from all walls beyond which a beam's end does not fit at all, m.
 const ELSEWHERE: f64 = 0.15;
-/// Weight of one beam: beams see the same walls, so they are not independent.
+/// Weight of one beam relative to an independent one: beams see the same walls.
 const SHARE_OF_A_BEAM: f64 = 0.3;
 /// Maximum distance of a beam's expected end from a known wall for it to be compared, m. Unknown
 /// ground has no influence.
 const COMPARED_WITHIN: f64 = 0.08;
-/// Spacing of the positions tried, m.
+/// Spacing of the tried positions, m.
 const STEP: f64 = 0.0125;
 /// Spacing of the positions tried first, m: less than the error of a beam's end.
 const COARSE: f64 = 0.05;
 /// Minimum half-width of the tried positions along an axis, m.
 const LEAST_WINDOW: f64 = 0.1;
-/// Standard deviation, m, above which an axis tells nothing.
+/// Standard deviation of the posterior above which an axis gives no evidence, m.
 const TELLS: f64 = 0.05;
 /// Minimum standard deviation of a position, m.
 const SUREST: f64 = 0.005;
-/// Fewest beams that can be compared.
+/// Minimum number of beams that can be compared.
 const FEWEST: usize = 10;
 
-/// Fits a scan to the walls of `grid` and returns the position. It is expected with `variance`
-/// along each axis, m², and at most `farthest` m away. O(positions tried · beams).
+/// Fits a scan to the walls of `grid` and returns the position. The variance of the expected
+/// position along each axis is `variance`, m². The result is at most `farthest` from it, m.
+/// O(positions tried · beams).
 pub(super) fn fit(
     grid: &WallGrid,
     expected: Point,
@@ -77,7 +79,7 @@ pub(super) fn fit(
     }
 }
 
-/// Returns the best of the shifts within `window` of `centre`, on a mesh of this width.
+/// Returns the best of the shifts within `window` of `centre`, m, on a mesh with this spacing, m.
 fn best_of(centre: Vector, window: Vector, mesh: f64, total: impl Fn(Vector) -> f64) -> Vector {
     let [columns, rows] = [window.x, window.y].map(|window| libm::ceil(window / mesh) as i32);
     let mut best = (f64::NEG_INFINITY, centre);
@@ -146,7 +148,7 @@ impl Moments {
     }
 }
 
-/// Returns the ends of the beams that can be compared with the walls.
+/// Returns the ends of the beams that end near known walls.
 fn comparable(grid: &WallGrid, expected: Point, heading: Heading, scan: &Scan) -> Vec<Point> {
     let ends = (0..).zip(&scan.ranges).filter_map(|(index, range)| {
         let bearing = heading.turned(scan.ring.bearing(index));
@@ -163,11 +165,11 @@ fn comparable(grid: &WallGrid, expected: Point, heading: Heading, scan: &Scan) -
 
 /// Distance before its end by which a beam must pass a known wall to contradict the position, m.
 const PASSED: f64 = 0.15;
-/// Spacing of the points at which beams are tried for walls, m: no wall is passed unseen but at a
-/// corner.
+/// Spacing of the points at which beams are tested for walls, m: small enough to miss walls only at
+/// corners.
 const RAY_STEP: f64 = 0.06;
 
-/// Returns where every other beam passes, beam by beam.
+/// Returns points along every other beam before it ends, beam by beam.
 fn rays(expected: Point, heading: Heading, scan: &Scan) -> Vec<Vec<Point>> {
     let ray = |(index, range): (u32, &f64)| {
         let unit = heading.turned(scan.ring.bearing(index)).unit();
@@ -179,7 +181,8 @@ fn rays(expected: Point, heading: Heading, scan: &Scan) -> Vec<Vec<Point>> {
     (0..).zip(&scan.ranges).step_by(2).map(ray).collect()
 }
 
-/// Returns how many beams pass through walls.
+/// Returns the number of beams that pass through walls, if the rays are shifted by `shift`, m. A
+/// ray stands for two beams.
 fn crossings(grid: &WallGrid, rays: &[Vec<Point>], shift: Vector) -> f64 {
     let crosses = |ray: &&Vec<Point>| ray.iter().any(|at| grid.is_wall(*at + shift));
     2.0 * rays.iter().filter(crosses).count() as f64
@@ -205,7 +208,7 @@ mod tests {
 
     const HERE: Point = Point::new(1.025, 1.025);
 
-    /// A room of floor whose walls are the lines of cells that `is_wall` says.
+    /// Returns a room of floor whose walls are the cells for which `is_wall` is true.
     fn room(is_wall: impl Fn(GridIndex) -> bool) -> WallGrid {
         WallGrid::of([[0, 0], [41, 41]], |index| match is_wall(index) {
             true => GroundKind::Wall,
@@ -213,7 +216,8 @@ mod tests {
         })
     }
 
-    /// A scan of beams that all look along `heading` or back, and meet something after `range` m.
+    /// Returns the scan between two walls across the robot's heading, `ahead` and `back`, m, from
+    /// it. Beams to the sides meet nothing.
     fn scan(ahead: f64, back: f64) -> Scan {
         let ring = Ring::full(96, 3.0);
         let mut scan = Scan::clear(ring);
@@ -233,7 +237,7 @@ mod tests {
         (found - expected).abs() < off
     }
 
-    /// Two walls tell the place across them, and nothing along them.
+    /// Two walls tell the robot's position across them, and nothing along them.
     #[test]
     fn walls_tell_the_axis_across_them() {
         // Their middles are 0.8 m to either side.
@@ -270,8 +274,7 @@ mod tests {
         assert!(near(found.variance.y, 0.0036, 1e-12), "{found:?}");
     }
 
-    /// A robot that is sure of its place does not leave it for a wall that is not where it should
-    /// be.
+    /// A robot that is sure of its position does not leave it for a misplaced wall.
     #[test]
     fn who_is_sure_stays() {
         let sure = Vector::new(1e-4, 1e-4);
@@ -318,7 +321,7 @@ mod tests {
         assert_eq!(found, expected);
     }
 
-    /// The mean and the variance of what was added, by their definitions.
+    /// The mean and the variance equal those of the added values, by definition.
     #[test]
     fn moments_are_those_of_the_weighted_values() {
         let values = [(0.5, 1.0), (-1.0, 2.0), (3.0, 0.25)];

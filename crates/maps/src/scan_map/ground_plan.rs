@@ -9,14 +9,14 @@ use super::{ChartError, WallGrid};
 
 /// Walls, floor and unknown ground, two bits per cell: what navigation needs of a [`WallGrid`].
 ///
-/// It is only as large as what is known, and does not grow.
+/// It is only as large as the known ground, and does not grow.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GroundPlan {
     /// Column and row of the first cell.
     first: GridIndex,
     columns: i32,
     rows: i32,
-    /// A bit a cell, in rows.
+    /// Walls, one bit per cell, row by row.
     walls: Vec<u64>,
     floor: Vec<u64>,
 }
@@ -38,7 +38,7 @@ const FARTHEST: i32 = 1_000_000;
 impl GroundKind {
     const ALL: [Self; 3] = [Self::Unknown, Self::Floor, Self::Wall];
 
-    /// Returns how it is written.
+    /// Returns the character that stands for it in a file.
     const fn letter(self) -> char {
         match self {
             Self::Unknown => ' ',
@@ -55,12 +55,12 @@ impl GroundKind {
 }
 
 impl GroundPlan {
-    /// Returns how many bytes walls and floor take. O(1).
+    /// Returns the memory of walls and floor, bytes. O(1).
     pub(super) const fn bytes(&self) -> usize {
         size_of_val(self.walls.as_slice()) + size_of_val(self.floor.as_slice())
     }
 
-    /// Returns the ground that a grid knows. O(cells).
+    /// Returns the ground known to a grid. O(cells).
     #[must_use]
     pub fn of(grid: &WallGrid) -> Self {
         let known = || {
@@ -120,7 +120,8 @@ impl GroundPlan {
         Ok(plan)
     }
 
-    /// Returns the same plan with walls at these points, too, as far as they lie within its bounds.
+    /// Returns the plan with additional walls at these points, as far as they lie within its
+    /// bounds.
     pub(super) fn with_walls(&self, at: &[Point]) -> Self {
         let mut plan = self.clone();
         for slot in at.iter().filter_map(|at| self.slot(index_of(*at))) {
@@ -146,7 +147,7 @@ impl GroundPlan {
         })
     }
 
-    /// Returns the grid that knows the same, each wall as seen once. O(cells).
+    /// Returns a grid with the same ground, each wall as seen once. O(cells).
     #[must_use]
     pub fn grid(&self) -> WallGrid {
         WallGrid::of(self.bounds(), |at| self.at(at))
@@ -158,7 +159,7 @@ impl GroundPlan {
         sees(from, to, |at| self.at(index_of(at)) == GroundKind::Wall)
     }
 
-    /// Returns what a cell holds.
+    /// Returns the kind of ground in a cell; unknown outside the plan.
     pub(super) fn at(&self, index: GridIndex) -> GroundKind {
         let Some(slot) = self.slot(index) else {
             return GroundKind::Unknown;
@@ -172,7 +173,7 @@ impl GroundPlan {
         }
     }
 
-    /// Returns the first cell, and the one past the last.
+    /// Returns the first cell, and one past the last.
     pub(super) fn bounds(&self) -> [GridIndex; 2] {
         let [column, row] = self.first;
         [self.first, [column + self.columns, row + self.rows]]

@@ -11,8 +11,8 @@ use super::{Clearings, ScanChart, ScanMapConfig, WallGrid};
 /// Places that are merged while the map grows, the links gone between them, and the walls that
 /// scans met.
 ///
-/// Positions are in the map's own frame, whose axes are the compass's, and which begins where the
-/// robot was put down.
+/// Positions are in the map's own frame, whose axes are the compass's, and which has its origin
+/// where the robot was put down.
 #[derive(Clone, Debug)]
 pub struct ScanMap {
     config: ScanMapConfig,
@@ -32,11 +32,11 @@ pub struct ScanMap {
     agreement: f64,
     /// Share of the beams of the last scan that contradicted the walls.
     contradiction: f64,
-    /// Largest such share of two scans in a row.
+    /// Greatest of the smaller shares of two successive scans.
     surprise: f64,
 }
 
-/// Fewest beams that can contradict walls.
+/// Minimum number of beams that can contradict walls.
 const FEWEST: u32 = 20;
 
 /// Minimum distance between two stored points where a landmark was sensed, m.
@@ -46,9 +46,9 @@ const SPACING_OF_LANDMARK: f64 = 0.02;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ScanPlace {
-    /// Position of the robot on its first visit.
+    /// Position of the robot at its first visit.
     pub position: Point,
-    /// The landmark it sensed there.
+    /// Landmark that it sensed there.
     pub landmark: Option<Landmark>,
 }
 
@@ -63,7 +63,7 @@ pub struct Advance<'a> {
     pub heading: Heading,
     /// Ranges of its beams.
     pub scan: &'a Scan,
-    /// The landmark it stands at.
+    /// Landmark at which it stands.
     pub landmark: Option<Landmark>,
 }
 
@@ -72,7 +72,7 @@ impl ScanMap {
     /// arena the highest was 0.28; among 10 maps of kidnapped robots the lowest was 0.64.
     pub const DOUBTFUL: f64 = 0.35;
 
-    /// Returns a map of nothing.
+    /// Returns an empty map.
     #[must_use]
     pub fn new(config: ScanMapConfig) -> Self {
         Self {
@@ -92,8 +92,8 @@ impl ScanMap {
         }
     }
 
-    /// Takes in where the robot came to: corrects its position by the walls, and adds the place,
-    /// the link and the walls that are new. O(cells in range + positions tried · beams + places).
+    /// Takes in the robot's arrival: corrects its position by the walls, and adds the place, the
+    /// link and the walls that are new. O(cells in range + positions tried · beams + places).
     pub fn observe(&mut self, seen: &Advance<'_>) {
         let expected = self.position + seen.moved;
         let variance = self.variance + seen.sd.component_mul(&seen.sd);
@@ -117,8 +117,8 @@ impl ScanMap {
         }
     }
 
-    /// Notes that the robot stands at a landmark on its way, `moved` from where it was observed
-    /// last.
+    /// Takes in that the robot stands at a landmark on its way, `moved` from its position at the
+    /// last observation, m.
     pub fn pass(&mut self, moved: Vector, landmark: Landmark) {
         self.sense(landmark, self.position + moved);
     }
@@ -135,8 +135,7 @@ impl ScanMap {
         self.at
     }
 
-    /// Returns the agreement of the last scan with the walls that were known, 0 … 1; 1 where it met
-    /// none of them.
+    /// Returns the agreement of the last scan with known walls, 0 … 1; 1 if it met none.
     #[must_use]
     pub const fn agreement(&self) -> f64 {
         self.agreement
@@ -167,20 +166,20 @@ impl ScanMap {
         &self.goal
     }
 
-    /// Returns the positions at which the landmark of the start was sensed, m; nothing if the map
+    /// Returns the positions at which the landmark of the start was sensed, m; empty if the map
     /// begins there.
     #[must_use]
     pub fn start(&self) -> &[Point] {
         &self.start
     }
 
-    /// Returns the cells in which the robot has been, as far as it could stand there now.
+    /// Returns the cells where the robot has been and could still stand.
     #[must_use]
     pub fn clearings(&self) -> Clearings<'_> {
         Clearings::new(&self.grid, self.config.radius)
     }
 
-    /// Returns the size of places, links, walls and the landmark's positions, bytes. O(1).
+    /// Returns the memory of places, links, walls and the landmark's positions, bytes. O(1).
     #[must_use]
     pub fn bytes(&self) -> usize {
         size_of_val(self.places.as_slice())
@@ -191,13 +190,13 @@ impl ScanMap {
             + self.grid.bytes()
     }
 
-    /// Returns places and links as any scorer and any drawing can read them. O(places + links).
+    /// Returns places and links in the form that scorers and drawings read. O(places + links).
     #[must_use]
     pub fn view(&self) -> MapView {
         view(&self.places, self.links())
     }
 
-    /// Returns the chart, which is the map once learning is over. O(cells + places + links).
+    /// Returns the chart: the map in its final form. O(cells + places + links).
     #[must_use]
     pub fn chart(&self) -> ScanChart {
         ScanChart::of(self)
@@ -213,8 +212,8 @@ impl ScanMap {
         self.config.radius
     }
 
-    /// Notes where the landmark of the goal or the start was sensed, unless it was sensed right
-    /// there before.
+    /// Records the position where the landmark of the goal or the start was sensed, unless one is
+    /// stored near it.
     fn sense(&mut self, landmark: Landmark, at: Point) {
         let first = self.places.first();
         let begins_there = first.is_none_or(|first| first.landmark == Some(landmark));
@@ -229,7 +228,7 @@ impl ScanMap {
         }
     }
 
-    /// Compares a scan with the walls that are known.
+    /// Compares a scan with the known walls, and records how much of it contradicts them.
     fn weigh(&mut self, seen: &Advance<'_>) {
         let scan = (self.position, seen.heading, seen.scan);
         if let Some(now) = self.grid.contradiction(scan.0, scan.1, scan.2, FEWEST) {
@@ -238,7 +237,7 @@ impl ScanMap {
         }
     }
 
-    /// Draws the walls of a scan that was taken where none was before.
+    /// Draws the walls of a scan if none was taken near its position before.
     fn draw(&mut self, seen: &Advance<'_>) {
         let near = |stand: &Point| {
             let way = (stand - self.position).norm();
@@ -251,7 +250,7 @@ impl ScanMap {
         self.grid.visit(self.position, self.config.reach_of_visit);
     }
 
-    /// Finds the place the robot has come to, or makes it, and links it with the one before.
+    /// Finds or makes the place that the robot has reached, and links it with the one before.
     fn enter(&mut self, landmark: Option<Landmark>) {
         let before = self.at;
         let here = self.nearest().unwrap_or_else(|| {

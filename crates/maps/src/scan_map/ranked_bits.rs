@@ -1,7 +1,7 @@
 use alloc::vec;
 use alloc::vec::Vec;
 
-/// A set of slots that gives each a number: the count of members before it.
+/// A set of slots that gives each member a number: the count of members before it.
 ///
 /// One bit per slot, and 32 bits per 64 slots.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -16,7 +16,7 @@ pub(super) struct RankedBits {
 const WORD: usize = u64::BITS as usize;
 
 impl RankedBits {
-    /// Returns the set of those among `slots` slots that are `in_it`. O(slots).
+    /// Returns the set of those of `slots` slots for which `in_it` is true. O(slots).
     pub(super) fn new(slots: usize, mut in_it: impl FnMut(usize) -> bool) -> Self {
         let mut words = vec![0_u64; slots.div_ceil(WORD)];
         for slot in (0..slots).filter(|slot| in_it(*slot)) {
@@ -39,14 +39,14 @@ impl RankedBits {
         self.len as usize
     }
 
-    /// Returns the number of a slot; `None` if it is not in it. O(1).
+    /// Returns the number of a slot; `None` if it is not in the set. O(1).
     pub(super) fn number(&self, slot: usize) -> Option<u32> {
         let word = *self.words.get(slot / WORD)?;
         let bit = 1_u64 << (slot % WORD);
         (word & bit != 0).then(|| self.before[slot / WORD] + (word & (bit - 1)).count_ones())
     }
 
-    /// Returns the slot of element `number`, or `None` if there are not that many. O(log slots).
+    /// Returns the slot of element `number`, or `None` if there are fewer elements. O(log slots).
     pub(super) fn slot(&self, number: u32) -> Option<usize> {
         if number >= self.len {
             return None;

@@ -6,12 +6,12 @@ use tolman_robot::Ring;
 use super::wall_grid::GridIndex;
 use super::{GroundKind, GroundPlan, WallGrid};
 
-/// The cells that the beams of a ring pass from the middle of a cell, beam 0 to the north: the same
-/// from every cell.
+/// Cells that the beams of a ring pass from the middle of a cell, beam 0 to the north. They are the
+/// same from every cell.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Rays {
     cells: Vec<RayCell>,
-    /// Past the last cell of each beam.
+    /// Index past the last cell of each beam.
     ends: Vec<u32>,
     /// Reading of a beam that meets nothing, in [`RANGE_UNIT`]s.
     clear: u8,
@@ -20,7 +20,7 @@ pub(super) struct Rays {
 /// A cell that a beam passes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct RayCell {
-    /// Columns and rows from where the beam begins.
+    /// Columns and rows from the beam's origin.
     offset: [i8; 2],
     /// Distance of the cell along the beam, in [`RANGE_UNIT`]s.
     range: u8,
@@ -28,7 +28,7 @@ struct RayCell {
 
 /// Resolution of ranges, m.
 pub(super) const RANGE_UNIT: f64 = 0.01;
-/// No range: the map does not say.
+/// Value for an unknown range.
 pub(super) const UNKNOWN: u8 = u8::MAX;
 /// Maximum length to which beams are followed, in [`RANGE_UNIT`]s.
 const LONGEST: f64 = 254.0;

@@ -18,10 +18,11 @@ pub(super) struct Skeleton {
     depth: Vec<u32>,
 }
 
-/// Distances along the axes and diagonals are counted as 3 and 4 (Borgefors 1986).
+/// Length of a step along an axis, in [`PART`]s of a cell; a diagonal step counts 4 (Borgefors
+/// 1986).
 const STRAIGHT: u32 = 3;
 const DIAGONAL: u32 = 4;
-/// Parts of a cell in which they are counted.
+/// Number of distance units per cell.
 const PART: f64 = STRAIGHT as f64;
 
 /// The cells round another, in turn; every second lies along an axis.
@@ -65,7 +66,7 @@ impl Skeleton {
         f64::from(depth) / PART * WallGrid::CELL
     }
 
-    /// Returns the cells of the lines beside one; a diagonal neighbour only if no other way is as
+    /// Returns the neighbours of a cell on its lines; a diagonal one only if no other way is as
     /// short.
     pub(super) fn beside(&self, at: GridIndex) -> impl Iterator<Item = GridIndex> + '_ {
         let around = self.around(at);
@@ -101,7 +102,7 @@ impl Skeleton {
         by_way.into_iter().fold(most, u32::min)
     }
 
-    /// Takes cells away, those at the border first.
+    /// Removes cells, those at the border first.
     fn thin(&mut self) {
         let all = (0..self.is_line.len()).filter(|slot| self.is_line[*slot]);
         let mut left: BinaryHeap<Reverse<(u32, usize)>> =
@@ -141,9 +142,10 @@ impl Skeleton {
     }
 }
 
-/// Returns whether a cell with these neighbours can be removed. It holds nothing together (Yokoi's
-/// number of connections is 1) and ends no line (more than two cells lie beside it). At the end of
-/// a line two cells wide, one cell stays; otherwise the line would be removed from its end on.
+/// Returns whether a cell with these neighbours can be removed. A removable cell connects nothing
+/// (Yokoi's number of connections is 1) and ends no line (more than two cells lie beside it). At
+/// the end of a line two cells wide, one cell stays; otherwise the line would be removed from its
+/// end on.
 fn is_needless(around: [bool; 8]) -> bool {
     let connections = [0, 2, 4, 6].into_iter().filter(|way| {
         let [a, b, c] = [0, 1, 2].map(|next| around[(way + next) % 8]);

@@ -23,9 +23,9 @@ pub struct Standpoints {
     columns: i32,
     /// The lattice cells that have a standpoint, in rows.
     stands: RankedBits,
-    /// Numbers of those where the landmark of the goal is sensed, in order.
+    /// Numbers of the standpoints where the landmark of the goal is sensed, in order.
     goals: Vec<u32>,
-    /// Numbers of the standpoints near enough to a point where the goal was sensed to sense it,
+    /// Numbers of the standpoints near a point where the goal was sensed, at which it is sensed
     /// too.
     sensing_goal: Vec<u32>,
 }
@@ -34,8 +34,8 @@ pub struct Standpoints {
 #[derive(Clone, Debug)]
 pub struct StandpointViews {
     ring: Ring,
-    /// Ranges from each, beam 0 to the north, in [`RANGE_UNIT`]s; [`UNKNOWN`] where the map does
-    /// not say.
+    /// Ranges from each standpoint, beam 0 to the north, in [`RANGE_UNIT`]s; [`UNKNOWN`] where the
+    /// map has no range.
     ranges: Vec<u8>,
 }
 
@@ -43,7 +43,7 @@ pub struct StandpointViews {
 const EVERY: i32 = 2;
 /// Distance by which the goal reaches beyond the points where its landmark was sensed, m.
 const GOAL_MARGIN: f64 = 0.05;
-/// Distance from a point where the goal was sensed within which it is sensed, too, m.
+/// Distance from a point where the goal was sensed within which it is sensed too, m.
 const SENSES_GOAL: f64 = 0.12;
 
 impl Standpoints {
@@ -109,13 +109,13 @@ impl Standpoints {
         Some(middle(self.index(slot)))
     }
 
-    /// Returns the numbers of those where the landmark of the goal is sensed, in order.
+    /// Returns the numbers of the standpoints where the landmark of the goal is sensed, in order.
     #[must_use]
     pub fn goals(&self) -> &[u32] {
         &self.goals
     }
 
-    /// Returns the one whose cell of the lattice a point lies in.
+    /// Returns the standpoint whose cell of the lattice contains a point.
     #[must_use]
     pub fn at(&self, point: Point) -> Option<u32> {
         self.number(lattice_of(index_of(point)))
@@ -131,8 +131,8 @@ impl Standpoints {
         }
     }
 
-    /// Returns the walls that a scan shows from a standpoint and the map does not: points side by
-    /// side. Empty where the scan fits, or does not fit for other reasons. O(beams · range).
+    /// Returns the walls in a scan from a standpoint that the map lacks, as adjacent points. Empty
+    /// if the scan fits, or differs for other reasons. O(beams · range).
     #[must_use]
     pub fn new_walls(&self, number: u32, heading: Heading, scan: &Scan) -> Vec<Point> {
         let slot = self.stands.slot(number);
@@ -173,13 +173,13 @@ impl Standpoints {
         ]
     }
 
-    /// Returns the numbers of the standpoints near enough to a point where the goal's landmark was
-    /// sensed to sense it, too.
+    /// Returns the numbers of the standpoints near a point where the goal's landmark was sensed, at
+    /// which it is sensed too.
     pub(super) fn sensing_goal(&self) -> &[u32] {
         &self.sensing_goal
     }
 
-    /// Returns the cells of those, by number.
+    /// Returns the cells of the standpoints, by number.
     pub(super) fn cells(&self) -> impl Iterator<Item = GridIndex> + '_ {
         self.stands.slots().map(|slot| self.index(slot))
     }
@@ -196,7 +196,7 @@ impl Standpoints {
         is_read.then(|| scan.northward(heading))
     }
 
-    /// Finds out where the landmark of the goal is sensed.
+    /// Marks the standpoints where the landmark of the goal is sensed.
     fn mark_goal(&mut self) {
         let points = self.chart.goal();
         let bounds = bounds(points);
@@ -236,9 +236,9 @@ impl Standpoints {
 }
 
 impl StandpointViews {
-    /// Writes into `scan` what a robot at a standpoint would see that faces along `heading`:
-    /// nothing in reach where the map does not say. The scan's ring must be a full circle of as
-    /// many beams.
+    /// Writes the view of a robot at a standpoint into `scan`, facing along `heading`. Beams with
+    /// unknown ranges read nothing in reach. The scan's ring must be a full circle of the same
+    /// number of beams.
     pub fn scan(&self, number: u32, heading: Heading, scan: &mut Scan) {
         let beams = self.ring.beams as usize;
         let expected = &self.ranges[number as usize * beams..][..beams];
@@ -274,7 +274,7 @@ impl Lattice {
     }
 }
 
-/// Returns which cells of the lattice the robot can come to from where it has been.
+/// Returns the set of lattice cells that the robot can reach from places where it has been.
 fn stands(chart: &ScanChart, clearings: &Clearings<'_>, lattice: &Lattice) -> RankedBits {
     let reached = clearings.reached(chart.places().iter().map(|place| place.position));
     let columns = lattice.columns as usize;
@@ -296,7 +296,7 @@ fn lattice_of(index: GridIndex) -> [i32; 2] {
     index.map(|along| along.div_euclid(EVERY))
 }
 
-/// Returns the box round where the goal was sensed, low and high corner.
+/// Returns the bounding box of the points where the goal was sensed, low and high corner.
 fn bounds(points: &[Point]) -> Option<[Point; 2]> {
     let first = *points.first()?;
     let margin = tolman_geom::Vector::new(GOAL_MARGIN, GOAL_MARGIN);

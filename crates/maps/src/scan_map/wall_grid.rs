@@ -58,8 +58,8 @@ impl WallGrid {
         size_of_val(self.cells.as_slice())
     }
 
-    /// Adds what a scan shows from a position, its beams turned by `heading`. A beam that met
-    /// nothing passed all the way. O(cells within the ring's range).
+    /// Adds a scan from a position, its beams turned by `heading`. A beam that met nothing passed
+    /// all cells in its range. O(cells within the ring's range).
     pub fn add(&mut self, from: Point, heading: Heading, scan: &Scan) {
         let range = scan.ring.max_range;
         self.cover(from, range + Self::REACH);
@@ -148,8 +148,8 @@ impl WallGrid {
         Some(most)
     }
 
-    /// Returns a grid of cells between these bounds that hold what `ground` says, each wall as seen
-    /// once. O(cells).
+    /// Returns a grid of cells between these bounds with the contents that `ground` gives, each
+    /// wall as seen once. O(cells).
     pub(super) fn of(bounds: [GridIndex; 2], ground: impl Fn(GridIndex) -> GroundKind) -> Self {
         let [first, end] = bounds;
         let [columns, rows] = [0, 1].map(|axis| end[axis] - first[axis]);
@@ -183,7 +183,7 @@ impl WallGrid {
         (first[1]..end[1]).flat_map(row)
     }
 
-    /// Returns what a cell holds.
+    /// Returns the kind of ground in a cell; unknown if no beam met or passed it.
     pub(super) fn ground(&self, index: GridIndex) -> GroundKind {
         match self.cell(index) {
             Some(cell) if cell.is_wall() => GroundKind::Wall,

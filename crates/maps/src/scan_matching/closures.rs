@@ -115,7 +115,8 @@ impl ScanMatching {
         }
     }
 
-    /// Takes matches for closures as far as others agree, and moves the map if they are far off.
+    /// Turns matches into closures if enough others agree, and corrects the map if they are far
+    /// off.
     fn accept(
         &mut self,
         config: &ClosureConfig,
@@ -293,7 +294,7 @@ impl ScanMatching {
             .collect()
     }
 
-    /// Holds the last keyframes against those about `old`.
+    /// Compares the last keyframes with those near `old`.
     fn closure(
         &self,
         config: &ClosureConfig,

@@ -33,19 +33,19 @@ pub struct ScanMatchingConfig {
     pub odometry_sd: f64,
     /// Standard deviation of the odometry's heading, from one matched scan to the next.
     pub odometry_turn_sd: f64,
-    /// Minimum score of a fit; below it a scan stays where the odometry has it.
+    /// Minimum score of a fit; below it a scan keeps its position by odometry.
     pub least_score: f64,
     /// Search for places that are seen again; `None` to find none.
     pub closures: Option<ClosureConfig>,
 }
 
-/// Sites where the robot searches for places that it has seen.
+/// Sites where the robot searches for places that it has visited.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ClosureSites {
     /// All along its way.
     Everywhere,
-    /// Only where the caller says so: see
+    /// Only where the caller asks for it: see
     /// [`ScanMatching::recognize`](super::ScanMatching::recognize).
     Named,
 }
@@ -121,7 +121,7 @@ impl ScanMatchingConfig {
         }
     }
 
-    /// Returns the same values, but closures at places that the caller names.
+    /// Returns the same values, but with closures only at places that the caller names.
     #[must_use]
     pub fn places() -> Self {
         Self {

@@ -70,8 +70,8 @@ impl Pyramid {
     }
 }
 
-/// Returns the pose in the window about `expected` at which the outline lies best on the grid.
-/// O(headings · points · (reach / width)²) and what bounds leave.
+/// Returns the pose in the window about `expected` at which the outline fits the grid best.
+/// O(headings · points · (reach / width)²) without the bounds, which save most of it.
 pub(super) fn best(
     grid: &LikelihoodGrid,
     pyramid: &Pyramid,
@@ -181,7 +181,7 @@ impl Search<'_> {
         }
     }
 
-    /// Returns what the prior takes, at least, of the poses of a candidate.
+    /// Returns the least loss of score by the prior among the poses of a candidate.
     fn loss(&self, turn: f64, shift: [i32; 2], width: i32) -> f64 {
         let nearest = shift.map(|low| {
             let high = low + width - 1;

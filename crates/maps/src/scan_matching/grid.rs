@@ -182,8 +182,8 @@ impl LikelihoodGrid {
         self.cell
     }
 
-    /// Returns a grid whose cells hold the greatest value of the `width` × `width` cells that begin
-    /// there. O(cells · log width).
+    /// Returns a grid in which each cell holds the greatest value of the `width` × `width` cells
+    /// that begin at it. O(cells · log width).
     pub(super) fn pooled(&self, width: usize) -> Self {
         let mut pooled = self.clone();
         // Each pass doubles how far a cell sees.

@@ -19,7 +19,7 @@ pub struct ScanStep {
     /// Odometry since the scan before, as the present pose relative to that one. Ignored for the
     /// first scan.
     pub moved: Pose,
-    /// The scan.
+    /// Scan at the end of the step.
     pub scan: Scan,
     /// Pose of the laser on the robot.
     pub robot_from_laser: Pose,
@@ -60,11 +60,11 @@ pub struct ScanMatching {
     pub(super) closing: Closing,
     /// Each scan by the keyframe before it.
     scans: Vec<Anchored>,
-    /// Odometry since the last scan that was matched, and the length of that way, m.
+    /// Odometry since the last matched scan, and its length, m.
     rolled: Pose,
     rolled_way: f64,
     matched: Anchored,
-    /// The map of the last keyframes, as long as it holds.
+    /// Map of the last keyframes, as long as it is valid.
     local: Option<(LikelihoodGrid, Pyramid)>,
 }
 
@@ -99,7 +99,7 @@ struct Anchored {
 }
 
 impl ScanMatching {
-    /// Returns a map of nothing.
+    /// Returns an empty map.
     #[must_use]
     pub fn new(config: ScanMatchingConfig) -> Self {
         Self {
@@ -134,7 +134,7 @@ impl ScanMatching {
             .collect()
     }
 
-    /// Returns the keyframes' poses and what was measured between them.
+    /// Returns the graph of the keyframes' poses and measurements.
     #[must_use]
     pub const fn graph(&self) -> &PoseGraph {
         &self.graph
@@ -173,7 +173,7 @@ impl ScanMatching {
         ScanOutline::of(&step.scan, step.robot_from_laser, self.config.farthest)
     }
 
-    /// Holds a scan against the last keyframes, expected at `expected`; `None` if it fits nowhere.
+    /// Matches a scan with the last keyframes, near `expected`; `None` if it fits nowhere.
     fn matched_to_last(&mut self, outline: &ScanOutline, expected: Pose) -> Option<Refined> {
         if self.local.is_none() {
             let first = self
@@ -240,7 +240,7 @@ impl ScanMatching {
 /// Number of points of a scan with which poses are searched.
 const SEARCHED_POINTS: usize = 180;
 
-/// Returns what the wheels alone say of a pose: ahead, left, heading.
+/// Returns the information matrix of a pose by odometry alone: ahead, left, heading.
 fn odometry_information(config: &ScanMatchingConfig) -> Matrix3<f64> {
     let [sd, turn_sd] = [config.odometry_sd, config.odometry_turn_sd];
     let sure = Vector3::new(sd * sd, sd * sd, turn_sd * turn_sd);

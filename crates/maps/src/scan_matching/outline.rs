@@ -13,9 +13,9 @@ pub(super) struct ScanOutline {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct SurfacePoint {
     pub(super) at: Point,
-    /// Across the surface, of unit length; zero where the beams beside it tell nothing.
+    /// Unit normal of the surface; zero if the neighbouring beams do not determine it.
     pub(super) normal: Vector,
-    /// Whether the same surface goes on to the next point.
+    /// Whether the same surface continues to the next point.
     pub(super) goes_on: bool,
 }
 
@@ -58,8 +58,8 @@ impl ScanOutline {
         }
     }
 
-    /// Returns which way its surfaces run: the sum of unit vectors at four times the heading of
-    /// each, since quarter turns are the same.
+    /// Returns the sum of unit vectors at four times each surface's heading. Its direction tells
+    /// how walls run, since quarter turns count as the same.
     pub(super) fn axis(&self) -> Vector {
         let told = self.points.iter().step_by(AXIS_POINTS);
         let told = told.filter(|point| point.normal != Vector::zeros());

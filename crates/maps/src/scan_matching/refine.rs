@@ -28,7 +28,7 @@ pub(super) struct Prior {
 const STEPS: u32 = 12;
 /// Size of a step at which the search ends, m and rad.
 const SMALL: f64 = 1e-5;
-/// Share that each point of a scan counts of what it would alone: points of one scan err together.
+/// Weight of each point of a scan relative to an independent one: points of one scan err together.
 const INDEPENDENT: f64 = 0.1;
 
 /// The sum of the points' likelihoods near a pose, to second order.
@@ -38,8 +38,8 @@ struct Local {
     curvature: Matrix3<f64>,
 }
 
-/// Returns the pose near `start` at which the outline lies best on the grid, whose surfaces are
-/// `kernel` m wide. O(points).
+/// Returns the pose near `start` at which the outline fits the grid best, whose surfaces are
+/// `kernel` wide, m. O(points).
 pub(super) fn refine(
     grid: &LikelihoodGrid,
     outline: &ScanOutline,
@@ -119,8 +119,8 @@ fn local(grid: &LikelihoodGrid, outline: &ScanOutline, pose: Pose, kernel: f64) 
     local
 }
 
-/// Returns how a point moves along a direction of the robot's frame as the robot moves ahead, left
-/// and turns.
+/// Returns the derivative of a point's coordinate along `direction` by the robot's motion: ahead,
+/// left, turn.
 fn by_pose(point: &SurfacePoint, direction: Vector) -> Vector3<f64> {
     let turning = Vector::new(-point.at.y, point.at.x);
     Vector3::new(direction.x, direction.y, direction.dot(&turning))

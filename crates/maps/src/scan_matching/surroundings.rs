@@ -57,9 +57,9 @@ impl ScanMatching {
         self.axis_of(0..self.keyframes.len())
     }
 
-    /// Returns the direction of most surfaces seen from about a keyframe, where the map's heading
-    /// has drifted. Of the four quarter turns it is the one nearest to the [axis](Self::axis) of
-    /// the building. `None` before a surface was seen. O(keyframes).
+    /// Returns the direction of most surfaces visible near a keyframe, where the map's heading has
+    /// drifted. Of the four quarter turns it is the one nearest to the [axis](Self::axis) of the
+    /// building. `None` before any surface was seen. O(keyframes).
     #[must_use]
     pub fn axis_about(&self, keyframe: usize) -> Option<Heading> {
         let end = (keyframe + ABOUT + 1).min(self.keyframes.len());

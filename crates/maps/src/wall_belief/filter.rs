@@ -20,8 +20,8 @@ pub struct PoseFilterConfig {
     pub slip: f64,
     /// Standard deviation of the turn that was not commanded, rad per metre. ≥ 0.
     pub drift: f64,
-    /// Standard deviation of where a particle is after a step, whatever was asked for, m: it keeps
-    /// particles apart. ≥ 0.
+    /// Standard deviation added to a particle's position in each step, whatever was commanded, m:
+    /// it keeps particles apart. ≥ 0.
     pub spread: f64,
     /// Errors of the range sensors.
     pub sensor: RangeModel,
@@ -52,7 +52,7 @@ impl PoseFilterConfig {
 pub struct FilterError {
     /// The name of the field.
     pub field: &'static str,
-    /// Its value.
+    /// Value that was given.
     pub value: f64,
     /// Values that the field may have.
     pub range: &'static str,
@@ -116,13 +116,13 @@ impl PoseFilter {
         })
     }
 
-    /// Puts all particles at `pose`, where the mouse was carried.
+    /// Puts all particles at `pose`, to which the mouse was carried.
     pub fn place(&mut self, pose: Pose) {
         let weight = 1.0 / self.particles.len() as f64;
         self.particles.fill(Particle { pose, weight });
     }
 
-    /// Puts a particle at each of `poses`: the mouse was carried to one of them. Nothing happens
+    /// Puts a particle at each of `poses`, to one of which the mouse was carried. Nothing happens
     /// without poses.
     ///
     /// The number of particles stays until they agree, which [`gather`](Self::gather) is told.
@@ -135,13 +135,13 @@ impl PoseFilter {
         }
     }
 
-    /// Draws as many particles as the configuration says from those that there are. O(particles).
+    /// Draws the configured number of particles from the present ones. O(particles).
     pub fn gather(&mut self, rng: &mut impl Rng) {
         self.draw(self.config.particles as usize, rng);
     }
 
-    /// Moves the particles as a mouse that was told to drive `distance`, m, and to turn by `turn`,
-    /// rad, counter-clockwise, meanwhile. O(particles).
+    /// Moves the particles like a mouse that was commanded to drive `distance`, m, and meanwhile to
+    /// turn by `turn`, rad, counter-clockwise. O(particles).
     pub fn drive(&mut self, distance: f64, turn: f64, rng: &mut impl Rng) {
         let config = self.config;
         for particle in &mut self.particles {
@@ -156,7 +156,7 @@ impl PoseFilter {
         }
     }
 
-    /// Weighs every particle by what the sensors read. O(particles · readings · cells along a ray).
+    /// Weighs every particle by the sensors' readings. O(particles · readings · cells along a ray).
     pub fn sense<const N: usize>(
         &mut self,
         walls: &WallBelief<N>,
@@ -246,8 +246,8 @@ fn mean(particles: &[Particle], sum: f64) -> Pose {
     Pose::new(Point::from(position / sum), Heading::of(direction))
 }
 
-/// Returns how likely a reading is for a mouse at `pose`, up to a factor; `nothing` is its density
-/// where no wall is met.
+/// Returns the likelihood of a reading for a mouse at `pose`, up to a factor. `nothing` is the
+/// density where no wall is met.
 fn likelihood<const N: usize>(
     sensor: &RangeModel,
     walls: &WallBelief<N>,

@@ -9,13 +9,13 @@ pub struct RangeModel {
     pub absolute: f64,
     /// Standard deviation of a range as a share of the range, at least 0.
     pub relative: f64,
-    /// The share of readings that have nothing to do with the walls in the map, such as those that
-    /// meet a post. Within 0 … 1.
+    /// Share of readings unrelated to the walls in the map, such as those that meet a post. Within
+    /// 0 … 1.
     pub outliers: f64,
 }
 
 impl RangeModel {
-    /// Returns the density of a reading whose expectation is `range`.
+    /// Returns the density of a reading whose expected value is `range`.
     #[inline]
     pub(super) fn density(&self, reading: f64, range: f64) -> f64 {
         let relative = self.relative * range;

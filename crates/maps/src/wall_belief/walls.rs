@@ -47,7 +47,7 @@ pub struct WallBelief<const N: usize> {
 pub struct RangeReading {
     /// Direction in which the beam looks, rad counter-clockwise from ahead.
     pub bearing: f64,
-    /// Distance of the thing that the beam meets, m.
+    /// Distance of the thing that the beam met, m.
     pub range: f64,
     /// Reading of a beam that meets nothing, m.
     pub max_range: f64,
@@ -150,7 +150,7 @@ impl<const N: usize> WallBelief<N> {
         }
     }
 
-    /// Takes in that something was touched where the wall of `cell` to `side` may stand.
+    /// Takes in a touch at the place where the wall of `cell` to `side` may stand.
     pub fn bump(&mut self, cell: Cell, side: Direction) {
         if let Some(odds) = self.odds.get_mut(self.grid.wall(cell, side).0 as usize) {
             *odds = (*odds + Self::MOST_AT_ONCE).min(Self::MOST);

@@ -25,7 +25,7 @@ impl<const N: usize, const LOG: usize> fmt::Display for WallMap<N, LOG> {
 }
 
 impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
-    /// Returns the walls on one side of row `y`, between posts.
+    /// Draws the walls on one side of row `y`, between posts.
     fn line(&self, f: &mut fmt::Formatter<'_>, y: u16, side: Direction) -> fmt::Result {
         for x in 0..self.grid().width() {
             f.write_str(match self.knowledge(Cell::new(x, y), side) {

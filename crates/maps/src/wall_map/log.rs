@@ -52,7 +52,7 @@ impl<const LOG: usize> Log<LOG> {
         Some((Wall(u32::from(last.wall)), last.place == 0))
     }
 
-    /// Returns the observations that are there as a whole, the oldest first.
+    /// Returns the observations that are still complete, the oldest first.
     #[cfg(feature = "serde")]
     pub(super) fn observations(&self) -> alloc::vec::Vec<alloc::vec::Vec<Wall>> {
         let mut left = *self;
@@ -80,7 +80,8 @@ impl<const LOG: usize> Log<LOG> {
     }
 }
 
-/// Alike if the same would be taken out; what gave way, wholly or in part, does not count.
+/// Two logs are equal if undoing them has the same effect. Observations that were overwritten,
+/// wholly or in part, do not count.
 impl<const LOG: usize> PartialEq for Log<LOG> {
     fn eq(&self, other: &Self) -> bool {
         let (mut left, mut right) = (*self, *other);

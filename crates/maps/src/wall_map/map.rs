@@ -4,8 +4,8 @@ use tolman_planners::TooLarge;
 use super::log::Log;
 use super::{CellRay, RayEnd};
 
-/// What a mouse knows of a maze of at most `N` × `N` cells, `N` ≤ 32, and where it has been. A
-/// larger `N` does not compile:
+/// A mouse's knowledge of a maze of at most `N` × `N` cells, `N` ≤ 32, and of its visits. A larger
+/// `N` does not compile:
 ///
 /// ```compile_fail
 /// # use tolman_maps::wall_map::{ClosedCells, WallMap};
@@ -91,14 +91,14 @@ pub enum ObserveError {
         /// The size of the maze.
         grid: Grid,
     },
-    /// The observation contradicts what is known.
+    /// The observation contradicts a known wall.
     #[error(
         "the {direction} side of {cell} is known to be {}: the mouse is elsewhere, or an observation was \
          wrong and has to be undone",
         if *known == Knowledge::Wall { "a wall" } else { "open" }
     )]
     Contradiction {
-        /// The cell.
+        /// Cell whose wall is contradicted.
         cell: Cell,
         /// The side of it.
         direction: Direction,
@@ -203,7 +203,7 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         Ok(learned)
     }
 
-    /// Forgets the walls of the last `observations` that told anything new, inferences included.
+    /// Forgets the walls of the last `observations` that had anything new, inferences included.
     /// Returns the number of observations undone, which is smaller if the map no longer remembers
     /// them. Visits stay.
     pub fn undo(&mut self, observations: usize) -> usize {
@@ -288,7 +288,7 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
             .sum()
     }
 
-    /// Returns whether the ray can be true.
+    /// Checks that the ray contradicts no known wall.
     fn check(&self, cell: Cell, ray: CellRay) -> Result<(), ObserveError> {
         let direction = ray.direction;
         let refuse = |cell, known| {
@@ -352,7 +352,7 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         self.log.observations()
     }
 
-    /// Writes down what was saved of an inner wall.
+    /// Restores an inner wall from its saved state.
     pub(super) fn restore_wall(&mut self, wall: Wall, knowledge: Knowledge) {
         if let Some((cell, direction)) = self.grid.side(wall) {
             self.set(cell, direction, knowledge);

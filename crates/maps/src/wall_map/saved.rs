@@ -32,7 +32,7 @@ pub struct SavedWallMap {
     pub closed_cells: ClosedCells,
     /// The walls known not to stand, each inside the border and named once.
     pub open: Vec<Wall>,
-    /// The walls known to stand, in the same form. Those of the border are left out.
+    /// Walls known to stand, in the same form. Border walls are left out.
     pub standing: Vec<Wall>,
     /// The observations that can be forgotten again, the oldest first, each with the walls that it
     /// revealed. A map with a shorter memory drops the oldest.
@@ -135,7 +135,7 @@ pub enum SavedWallMapError {
         /// The size of the maze.
         grid: Grid,
     },
-    /// A wall is named twice, as open, as standing or among what is remembered.
+    /// A wall is named twice, as open, as standing or as remembered.
     #[error("wall {wall} is named twice: name it once")]
     Twice {
         /// Its number.

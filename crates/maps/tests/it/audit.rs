@@ -47,8 +47,8 @@ fn edge(from: u32, to: u32, measured: Pose, kind: PoseEdgeKind) -> PoseEdge {
 }
 
 impl Laps {
-    /// Every fifth pose but those of the first lap sees its place of the lap before again: each is
-    /// a run of its own.
+    /// Returns a graph in which every fifth pose after the first lap has a closure to its place of
+    /// the lap before. Each closure is a run of its own.
     fn new(laps: u32, errors: f64, seed: u64) -> Self {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let mut erring = |measured: Pose| {
@@ -81,7 +81,8 @@ impl Laps {
         Self { truth, graph }
     }
 
-    /// With closures between poses that are not at one place, said to be.
+    /// Returns a graph with `count` false closures between poses that are far apart, and the number
+    /// of its right edges.
     fn spoiled(laps: u32, count: u32, seed: u64) -> (Self, u32) {
         let mut made = Self::new(laps, 1.0, seed);
         let right = made.graph.edges().len() as u32;

@@ -8,8 +8,8 @@ use tolman_robot::Landmark;
 const CELLS: usize = 19;
 const WIDTH: f64 = CELLS as f64 * WallGrid::CELL;
 
-/// The map of a drawing, in rows from south to north: `#` is wall, `G` the goal, all else floor.
-/// The robot began at `S`.
+/// Returns the map of a drawing, in rows from south to north: `#` is wall, `G` the goal, all else
+/// floor. The robot began at `S`.
 fn map(drawing: &[&str]) -> CorridorMap {
     let middle = |letter| {
         let mut rows = (0..).zip(drawing);

@@ -30,8 +30,8 @@ fn braided(width: u16, height: u16, share: f64, seed: u64) -> Maze {
         .unwrap()
 }
 
-/// Fewest steps to each cell, written as plainly as it goes: up to three cells in a row without a
-/// wall between.
+/// Returns the fewest steps to each cell, computed as plainly as possible. A step crosses up to
+/// three cells in a row without a wall between.
 fn fewest_steps(maze: &Maze, start: Cell) -> Vec<Option<u16>> {
     let grid = maze.grid();
     let mut steps = vec![None; grid.cell_count()];
@@ -130,7 +130,7 @@ fn explore_by(
     panic!("never ends in\n{maze}");
 }
 
-/// No completion of what is unknown has a better run.
+/// Checks that no completion of the unknown walls has a better run.
 fn check_proof(
     maze: &Maze,
     (map, _, moves): (WallMap<16>, u32, u16),
@@ -219,7 +219,7 @@ proptest! {
     }
 }
 
-/// Played to its end before each stop, the proof takes fewer steps.
+/// Compares the steps of proofs with and without rollouts: rollouts need fewer.
 #[test]
 fn rollouts_save_steps() {
     let (mut plain, mut with_rollouts) = (0, 0);
@@ -234,8 +234,8 @@ fn rollouts_save_steps() {
     );
 }
 
-/// The last looks are forgotten now and then, also on the way to a stop: it goes on with what it
-/// knows.
+/// The last looks are forgotten now and then, also on the way to a stop. The rollout goes on with
+/// what it knows.
 #[test]
 fn rollouts_go_on_where_walls_are_forgotten() {
     let maze = braided(9, 9, 0.5, 1);

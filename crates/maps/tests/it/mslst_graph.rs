@@ -50,7 +50,7 @@ fn remembered(events: &[Event], length: usize) -> Memory {
     memory
 }
 
-/// Shortest ways to a destination by relaxation until nothing changes.
+/// Returns the shortest distances to a destination, by relaxation until nothing changes.
 fn distances(graph: &MslstGraph) -> Vec<Option<u32>> {
     let mut distances: Vec<Option<u32>> = graph
         .ids()

@@ -123,8 +123,8 @@ impl Wanderer {
     }
 }
 
-/// Root-mean-square distance of the map's pose, and of the reckoned one, from the truth over the
-/// last half.
+/// Returns the root-mean-square errors of the map's pose and of dead reckoning over the last half,
+/// with map and robot.
 fn errors(seed: u64, looks: usize) -> (f64, f64, PlaceGraph, Wanderer) {
     let mut robot = Wanderer::new(seed);
     let start = robot.truth;

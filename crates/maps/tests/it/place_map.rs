@@ -118,8 +118,8 @@ fn redness(picture: &Picture) -> f64 {
     picture.pixels.iter().filter(red).count() as f64 / picture.pixels.len() as f64
 }
 
-/// Returns how far the nodes that see the windows lie to the east of the others, m. The map is
-/// first turned so that the yellow side is straight above the blue side, as the paper draws it.
+/// Returns the distance by which the nodes that see the windows lie east of the others, m. The map
+/// is first turned so that the yellow side is straight above the blue side, as the paper draws it.
 fn windows_to_the_right(map: &PlaceMap) -> f64 {
     let mean_where = |see: &dyn Fn(&Picture) -> bool| {
         let seen = map.positions();

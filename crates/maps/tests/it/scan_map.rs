@@ -17,7 +17,8 @@ fn ring() -> Ring {
     Ring::full(72, 1.25)
 }
 
-/// Returns what a robot sees that looks `heading` in a corridor from (0, 0) to (`length`, 0.95).
+/// Returns the scan of a robot at `at`, looking `heading`, in a corridor from (0, 0) to (`length`,
+/// 0.95).
 fn scan_of(length: f64, at: Point, heading: Heading) -> Scan {
     let mut scan = Scan::clear(ring());
     for (index, range) in (0..).zip(&mut scan.ranges) {
@@ -116,9 +117,9 @@ fn a_robot_that_saw_one_end_knows_which_end_it_is_at() {
     assert!(belief.certainty(&on, DIAMETER) > 0.95);
 }
 
-/// Returns what a robot believes and what explained its looks best each time. It knows that it
-/// stands in a corridor 5 m long, `from` m from its western end. Then it sees, `looks` times, what
-/// is seen at `seen` in a corridor of `length` m.
+/// Returns the belief of a robot that meets another corridor, and the best explanation of each
+/// look. It knows that it stands in a corridor 5 m long, `from` m from its western end. Then it
+/// looks `looks` times, from `seen`, m, in a corridor of `length`, m.
 fn surprised(
     from: f64,
     seen: f64,
@@ -178,7 +179,7 @@ fn a_wall_that_is_new_moves_nobody() {
     assert!((at - Point::new(1.9, 0.0)).norm() < 0.3, "{at}");
 }
 
-/// Wherever on its map it believes to be, where the map ends too.
+/// A scan that fits nowhere restarts the belief, also one at the map's end.
 #[test]
 fn a_scan_that_fits_nowhere_makes_it_begin_anew() {
     // It has seen the western end of a corridor whose other end is out of sight.
@@ -210,8 +211,7 @@ fn a_scan_that_fits_nowhere_makes_it_begin_anew() {
     }
 }
 
-/// What is seen from a standpoint is what a robot there would see, as far as walls are known to a
-/// cell.
+/// A standpoint's scan is that of a robot there, as far as walls are known to a cell.
 #[test]
 fn standpoints_see_what_is_there() {
     let (map, _) = walked(5.0, &[0.0]);
@@ -321,7 +321,7 @@ proptest! {
         prop_assert!(map.agreement() > 0.5);
     }
 
-    /// However it moves and whatever it sees, its belief is a distribution.
+    /// However the robot moves and whatever it sees, its belief is a distribution.
     #[test]
     fn beliefs_add_up_to_one(
         moves in prop::collection::vec((-0.6..0.6_f64, -0.2..0.2_f64, 0.3..4.7_f64), 1..8),

@@ -30,7 +30,7 @@ fn maze(seed: u64) -> Maze {
         .unwrap()
 }
 
-/// Returns what perfect sensors to all four sides read.
+/// Returns the readings of perfect sensors to all four sides.
 fn readings(world: &World, pose: Pose) -> [RangeReading; 4] {
     [0.0, 1.0, 2.0, 3.0].map(|quarters| {
         let bearing = quarters * FRAC_PI_2;

@@ -20,7 +20,7 @@ fn mazes() -> impl Strategy<Value = Maze> {
     })
 }
 
-/// Returns what is seen from a cell to all sides.
+/// Returns the rays from a cell to all four sides, each up to the first wall.
 fn rays(maze: &Maze, cell: Cell) -> [CellRay; 4] {
     Direction::ALL.map(|direction| {
         let mut at = cell;

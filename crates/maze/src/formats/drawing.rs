@@ -23,12 +23,12 @@ const fn is_post(c: char) -> bool {
     matches!(c, 'o' | '+')
 }
 
-/// Returns where in a line the post to the west of a column is.
+/// Returns the column of characters of the post to the west of a cell's column.
 const fn post(column: u16) -> usize {
     column as usize * PITCH
 }
 
-/// Returns where in a line the middle of a column is.
+/// Returns the column of characters of the middle of a cell's column.
 const fn middle(column: u16) -> usize {
     post(column) + PITCH / 2
 }
@@ -254,7 +254,7 @@ const HORIZONTAL: &str =
     "`---` or three blanks between two posts, since a cell is three characters wide";
 
 impl Row<'_> {
-    /// Returns the character at `offset`; lines go on with blanks after their end.
+    /// Returns the character at `offset`; blanks beyond the end of the line.
     fn char(&self, offset: usize) -> char {
         let bytes = self.line.text.as_bytes();
         match bytes.get(self.indent + offset) {

@@ -43,7 +43,7 @@ pub enum MazeFault {
         found: String,
     },
 
-    /// A character of a drawing that does not belong where it is.
+    /// A character of a drawing is in the wrong place.
     #[error("found {found:?}: expected {expected}")]
     Character {
         /// The character, a line feed at the end of a line.
@@ -51,7 +51,7 @@ pub enum MazeFault {
         /// Text that is allowed there, in words.
         expected: &'static str,
     },
-    /// A tab, whose width is unknown.
+    /// A line has a tab, whose width is unknown.
     #[error("found a tab: draw with blanks")]
     Tab,
     /// A line that ends before the east border.
@@ -66,7 +66,7 @@ pub enum MazeFault {
         /// Number of columns of the first line.
         width: usize,
     },
-    /// A line that goes on beyond the east border.
+    /// A line extends beyond the east border.
     #[error(
         "the drawing goes on beyond the east border: its first line has posts for {width} columns \
          (one every 4 characters); make all lines {} characters long", width * 4 + 1
@@ -108,7 +108,7 @@ pub enum MazeFault {
         found: usize,
         /// Number expected.
         expected: usize,
-        /// Kind of thing that was counted.
+        /// Kind of the counted things.
         what: &'static str,
         /// Advice on the repair.
         repair: &'static str,
@@ -122,7 +122,7 @@ pub enum MazeFault {
         /// The side asked for.
         side: usize,
     },
-    /// Two cells that tell different things about the wall between them.
+    /// Two cells contradict each other about the wall between them.
     #[error(
         "cell {cell} is {} to the {direction}, but {neighbour} beyond is {} to the {}: make the two \
          agree", side(*open), side(!*open), direction.opposite()
@@ -132,7 +132,7 @@ pub enum MazeFault {
         cell: Cell,
         /// The side in question.
         direction: Direction,
-        /// Whether `cell` says that it is open.
+        /// Whether `cell` claims that it is open.
         open: bool,
         /// The cell beyond.
         neighbour: Cell,
@@ -140,7 +140,7 @@ pub enum MazeFault {
     /// A cell listed twice.
     #[error("cell {cell} was already given on line {first_line}: keep one of the two lines")]
     Duplicate {
-        /// The cell.
+        /// Cell that is given twice.
         cell: Cell,
         /// Line of its first mention.
         first_line: usize,
@@ -157,7 +157,7 @@ pub enum MazeFault {
         grid: Grid,
     },
 
-    /// A header and nothing below it.
+    /// There is a header and no drawing below it.
     #[error(
         "the drawing is missing: draw the maze below the header, with posts and walls as in `+---+` \
          and `|`; lines that start with `#` are comments, not walls"
@@ -178,7 +178,7 @@ pub enum MazeFault {
     /// A key given twice.
     #[error("`{key}` was already given on line {first_line}: keep one of the two lines")]
     RepeatedKey {
-        /// The key.
+        /// Name of the key.
         key: &'static str,
         /// Line of its first mention.
         first_line: usize,
@@ -186,14 +186,14 @@ pub enum MazeFault {
     /// A value its key cannot have.
     #[error("found `{found}` for `{key}`: expected {expected}")]
     Value {
-        /// The key.
+        /// Name of the key.
         key: &'static str,
         /// Its value.
         found: String,
         /// Values it may have.
         expected: &'static str,
     },
-    /// The header and the drawing tell different starts.
+    /// The header and the drawing have different starts.
     #[error("`start` is {header}, but the drawing has its `S` in {drawing}: drop one of the two")]
     StartDisagrees {
         /// The cell of the header.
@@ -201,7 +201,7 @@ pub enum MazeFault {
         /// The cell of the mark.
         drawing: Cell,
     },
-    /// The header and the drawing tell different destinations.
+    /// The header and the drawing have different destinations.
     #[error(
         "`destination` is {}, but the drawing has its `G` in {}: drop one of the two",
         Cells(header),
@@ -220,7 +220,7 @@ pub enum MazeFault {
         found: String,
     },
 
-    /// A maze that is told without a fault, but cannot be used.
+    /// The maze has no fault of format, but cannot be used.
     #[error(transparent)]
     Maze(#[from] CheckError),
 }
@@ -300,7 +300,7 @@ pub enum WriteError {
          of text"
     )]
     Name {
-        /// The name.
+        /// Name that was given.
         name: String,
     },
     /// A corridor width outside [`MazeFile::CORRIDOR_WIDTHS`](crate::MazeFile::CORRIDOR_WIDTHS).
@@ -319,7 +319,7 @@ pub struct UnknownFormat {
     pub name: String,
 }
 
-/// Returns the side of a grid that is too long to be read or written, if any.
+/// Returns the side of a grid that is too long to be read or written, or `None`.
 pub(super) fn too_large(grid: Grid) -> Option<u16> {
     Some(grid.width().max(grid.height())).filter(|side| *side > Grid::MAX_SIDE)
 }

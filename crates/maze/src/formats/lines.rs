@@ -1,4 +1,4 @@
-//! Lines of a text with their numbers, so that every fault can say where it is.
+//! Reads the lines of a text with their numbers, so that every fault can name its place.
 
 use super::{MazeError, MazeFault};
 
@@ -104,7 +104,7 @@ impl<'a> Lines<'a> {
         self.find(|line| !line.is_blank())
     }
 
-    /// Returns how many lines were taken so far.
+    /// Returns the number of lines read so far.
     pub(super) const fn read(&self) -> usize {
         self.read
     }

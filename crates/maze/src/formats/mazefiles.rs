@@ -1,4 +1,4 @@
-//! [`Format::Mazefiles`](super::Format::Mazefiles): a drawing and nothing else.
+//! [`Format::Mazefiles`](super::Format::Mazefiles): a drawing alone.
 
 use alloc::string::{String, ToString};
 

@@ -25,7 +25,7 @@ use lines::{Lines, Place};
 
 use crate::{Cell, Direction, Maze};
 
-/// What a maze file tells: the maze, and what only tolman's own format can add to it.
+/// Contents of a maze file: the maze, and additions that only tolman's own format can hold.
 ///
 /// ```
 /// use tolman_maze::{Format, MazeFile, read, write};
@@ -71,8 +71,8 @@ impl From<Maze> for MazeFile {
     }
 }
 
-/// A text format of mazes. Its name (`numbers`, `mazefiles`, `num`, `tolman`) is what it displays
-/// as and parses from.
+/// A text format of mazes. It is displayed as, and parsed from, its name: `numbers`, `mazefiles`,
+/// `num` or `tolman`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Format {
@@ -84,7 +84,7 @@ pub enum Format {
     /// A drawing as in the `mazefiles` collection: 2h + 1 lines of 4w + 1 characters, north first.
     /// Posts are `o` or `+`, walls `---` and `|`, marks `S` and `G`. Without an `S` the start is
     /// the south-west cell; it looks north. The drawing ends at the first line that starts with
-    /// neither a post, a wall nor a blank; what follows is ignored.
+    /// neither a post, a wall nor a blank; the rest is ignored.
     Mazefiles,
     /// The `.num` files of the simulator mms: a line `X Y N E S W` for each cell, 1 where a wall
     /// stands. The start is the south-west cell, looking north; the goal is the middle.
@@ -98,7 +98,7 @@ impl Format {
     /// All formats.
     pub const ALL: [Self; 4] = [Self::Numbers, Self::Mazefiles, Self::Num, Self::Tolman];
 
-    /// Returns the name, as a command line takes it.
+    /// Returns the name as typed on a command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -109,8 +109,8 @@ impl Format {
         }
     }
 
-    /// Returns the usual file extension, without the dot. Two formats share `txt`: what a file
-    /// holds is found by its text, see [`Format::detect`].
+    /// Returns the usual file extension, without the dot. Two formats share `txt`;
+    /// [`Format::detect`] finds the format by the text.
     #[must_use]
     pub const fn extension(self) -> &'static str {
         match self {
@@ -284,8 +284,8 @@ impl Parsed {
     }
 }
 
-/// Returns whether start and goals are those of classic competitions; formats that leave them
-/// unsaid can hold no others.
+/// Checks that start and goals are those of classic competitions. Formats that do not state them
+/// can hold no others.
 fn expect_classic(maze: &Maze, format: Format) -> Result<(), WriteError> {
     let mut goals: Vec<Cell> = maze.grid().middle().collect();
     goals.sort_unstable();

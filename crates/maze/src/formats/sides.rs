@@ -1,4 +1,4 @@
-//! Mazes told cell by cell: each wall is told twice, and the two must agree.
+//! Reads mazes given cell by cell. Each wall is given twice, and the two must agree.
 
 use super::{CLASSIC_START, MazeError, MazeFault, Parsed, Place};
 use crate::{Cell, CheckError, Direction, Grid, Maze};
@@ -23,8 +23,8 @@ pub(super) fn open_sides(maze: &Maze, cell: Cell) -> u8 {
     Direction::ALL.into_iter().map(bit).sum()
 }
 
-/// Returns the maze of which `sides` tells every cell, by [`Grid::index`], with start and goals
-/// where classic competitions have them.
+/// Returns the maze whose cells have the sides `sides`, by [`Grid::index`]. Start and goals are
+/// those of classic competitions.
 pub(super) fn parsed(grid: Grid, sides: &[Sides]) -> Result<Parsed, MazeError> {
     let mut maze = maze(grid, sides)?;
     maze.set_start(Some(CLASSIC_START));

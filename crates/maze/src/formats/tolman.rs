@@ -19,7 +19,7 @@ const DESTINATION: &str = "destination";
 /// All keys, in the order they are written in.
 pub(super) const KEYS: [&str; 5] = [FORMAT, NAME, CORRIDOR_WIDTH, START, DESTINATION];
 
-/// The only value of `format` so far.
+/// The only valid value of `format` so far.
 const VERSION: &str = "tolman maze 1";
 
 pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {

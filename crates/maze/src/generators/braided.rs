@@ -5,7 +5,7 @@ use rand::Rng;
 use super::{GenerateError, Perfect, chance};
 use crate::{Cell, Direction, Maze};
 
-/// A maze with loops: a [`Perfect`] one of whose dead ends a share is opened.
+/// A maze with loops: a [`Perfect`] one in which a share of the dead ends is opened.
 ///
 /// A dead end is opened by removing one of its inner walls, at random, if possible one to another
 /// dead end. The start keeps its three walls. With a share of 0 the maze stays perfect. With 1 the
@@ -96,7 +96,7 @@ impl Braided {
     }
 }
 
-/// Opens the dead end `cell`, and returns by how many that reduces the dead ends.
+/// Opens the dead end `cell`, and returns the reduction of the number of dead ends.
 fn open(
     maze: &mut Maze,
     cell: Cell,

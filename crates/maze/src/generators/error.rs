@@ -37,7 +37,7 @@ pub enum GenerateError {
         /// Number of rows of the maze.
         height: u16,
     },
-    /// No drawing had what was asked for.
+    /// No drawing had the requested features.
     #[error(
         "none of {tries} drawings has all features that were asked for: ask for fewer dead ends or longer corridors, or a larger maze"
     )]

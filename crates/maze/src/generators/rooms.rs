@@ -26,7 +26,7 @@ pub struct Rooms {
     pub smallest: u16,
     /// Longest side of a room, cells.
     pub largest: u16,
-    /// Number of doors beyond those that join everything: each closes a loop.
+    /// Number of doors beyond those that connect everything. Each closes a cycle.
     pub extra_doors: u32,
 }
 

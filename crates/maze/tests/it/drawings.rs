@@ -31,7 +31,7 @@ fn sizes() -> impl Strategy<Value = (u16, u16)> {
     (5_u16..25, 5_u16..25)
 }
 
-/// Returns how many loops there are: ways that could be walled up without cutting anything off.
+/// Returns the number of loops: ways that could be walled up without cutting anything off.
 fn loops(maze: &Maze) -> usize {
     maze.opening_count() + 1 - maze.reachable().count()
 }

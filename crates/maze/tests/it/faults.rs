@@ -2,7 +2,7 @@
 
 use tolman_maze::{Format, read, read_as};
 
-/// The message of the error that `text` is refused with.
+/// Checks the message of the error with which `text` is refused.
 fn check(text: &str, expect: &str) {
     let error = read(text).map(|file| file.maze.to_string()).unwrap_err();
     assert_eq!(error.to_string(), expect, "\n{text}");

@@ -9,7 +9,7 @@ fn rng(seed: u64) -> ChaCha8Rng {
     ChaCha8Rng::seed_from_u64(seed)
 }
 
-/// Returns what every generator promises.
+/// Checks that the maze is sound and connected, with a start from which there is a way to a goal.
 fn holds_together(maze: &Maze) -> Result<(), TestCaseError> {
     prop_assert_eq!(maze.check(), Ok(()));
     prop_assert!(
@@ -115,7 +115,7 @@ proptest! {
     }
 }
 
-/// Their middle holds the start, so the goal is the cell farthest from it.
+/// The middle of such a maze holds the start, so the goal is the cell farthest from it.
 #[test]
 fn the_smallest_mazes_have_a_way_to_go() {
     let check = |width, height, goal, steps| {

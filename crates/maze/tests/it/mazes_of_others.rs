@@ -42,7 +42,7 @@ fn files(folder: &str) -> Vec<PathBuf> {
     files
 }
 
-/// Every format holds the maze and gives it back, or says what it cannot hold.
+/// Checks that every format holds the maze and gives it back, or names what it cannot hold.
 fn round_trips(file: &MazeFile, own: Format) {
     for format in Format::ALL {
         match write(file, format) {
@@ -127,7 +127,7 @@ fn the_papers_mazes_and_generated_ones_read_and_round_trip() {
     }
 }
 
-/// The length of the shortest way in cells, as the paper has it for its three mazes.
+/// Compares the length of the shortest way, in cells, with the paper's for its three mazes.
 #[test]
 fn the_papers_mazes_have_the_papers_shortest_ways() {
     for (path, cells) in files("udacity").iter().zip([30, 43, 49]) {

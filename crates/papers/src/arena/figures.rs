@@ -96,7 +96,7 @@ impl End {
     }
 }
 
-/// Returns how each run of a row ended.
+/// Returns the end of each run of a row.
 fn ends(runs: &[Run], table: &str, task: ArenaTask, row: &str) -> Result<Vec<End>, BoxError> {
     Ok(match task {
         ArenaTask::Learn => {

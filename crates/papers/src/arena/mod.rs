@@ -196,7 +196,7 @@ impl Arena {
         self.worlds[world].draw(self.seed, number)
     }
 
-    /// Returns which kind of world a run is in, and which drawing of it.
+    /// Returns the index of a run's world among the experiment's, and the number of its drawing.
     fn place(&self, row: &RowName<'_>, run: u32) -> Result<(usize, u32), BoxError> {
         if row.world == ALL {
             let (world, number) = of_all(run, self.worlds.len() as u32);

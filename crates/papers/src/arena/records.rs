@@ -9,13 +9,12 @@ use super::{ArenaTask, TABLES};
 record! {
     /// A system's map of a world.
     pub(super) struct LearnRun {
-        /// Whether it said, before it drove, that it cannot work there.
+        /// Whether it declared, before it drove, that it cannot work there.
         abstained: bool => neither("abstained"),
         /// Whether its map is right: it matches the graph of the true places and ways one to one,
         /// and has at least 95 % of them. A system that abstained has no right map.
         right: bool => higher("right"),
-        /// Whether its map matches, one to one, the graph of the true ways that the robot drove and
-        /// of what it saw beside them.
+        /// Whether its map matches, one to one, the true ways that the robot drove and saw.
         right_of_visited: bool => higher("right as far as visited"),
         /// Share of the visits to its places in which the robot was in the cell that this place
         /// most often was.
@@ -33,7 +32,7 @@ record! {
         false_alarm: Option<bool> => lower("right maps called wrong"),
         /// Whether the system gave no verdict on its map.
         undecided: Option<bool> => lower("undecided"),
-        /// Whether the map is right, if there is one.
+        /// Whether the map is right; no value without a map.
         map_right: Option<bool> => higher("right maps"),
         /// Squared error of the system's probability that its map is right. That is its own
         /// estimate if it has one. Otherwise it is 1 if it was done, 0 if it gave up, and ½ if it
@@ -53,7 +52,7 @@ record! {
 record! {
     /// A robot's drive to the goal.
     pub(super) struct HomeRun {
-        /// Whether it said, before it drove, that it cannot work there.
+        /// Whether it declared, before it drove, that it cannot work there.
         abstained: bool => neither("abstained"),
         /// Whether it reached the goal within ten times the shortest way.
         success: bool => higher("success"),
@@ -67,15 +66,15 @@ record! {
 }
 
 record! {
-    /// A system's answer to where it was put down.
+    /// A system's answer to the question where it was put down.
     pub(super) struct LocateRun {
-        /// Whether it said where it is, and was right.
+        /// Whether it named its place, and was right.
         right: bool => higher("right"),
-        /// Whether it said where it is, and was wrong.
+        /// Whether it named its place, and was wrong.
         wrong: bool => lower("wrong"),
         /// Whether it gave no answer.
         abstained: bool => neither("abstained"),
-        /// With a right map, or the true one: whether it said where it is, and was right.
+        /// With a right map, or the true one: whether it named its place, and was right.
         right_on_right_map: Option<bool> => higher("right on right maps"),
         /// Probability that an observer with the true map and without recognition errors would name
         /// the right cell after the same drive.
@@ -109,7 +108,7 @@ record! {
 record! {
     /// Results of a system under a condition.
     pub(super) struct ConditionRun {
-        /// Whether it said, before it drove, that it cannot work there.
+        /// Whether it declared, before it drove, that it cannot work there.
         abstained: bool => neither("abstained"),
         /// Whether its map is right.
         right: bool => higher("right"),
@@ -122,7 +121,7 @@ record! {
         false_right: Option<bool> => lower("wrong maps called right"),
         /// Whether it localized after it was put down.
         located: bool => higher("located"),
-        /// Whether it believed it was somewhere else.
+        /// Whether it believed that it was at another place.
         located_wrong: bool => lower("located wrongly"),
         /// Whether it reached the goal.
         success: bool => higher("success"),

@@ -13,7 +13,7 @@ const COMPETITION: [&str; 2] = [
     "mazes/classic/apec2016.txt",
 ];
 
-/// Returns the worlds of these files, or the default ones, and a note on what is missing.
+/// Returns the worlds of these files, or the default ones, and a note on missing ones.
 pub(super) fn venues(files: &[PathBuf]) -> Result<(Vec<Venue>, Option<String>), BoxError> {
     if !files.is_empty() {
         return Ok((venue::from_files(files, &[detector::NAME])?, None));

@@ -153,7 +153,7 @@ fn share(part: u32, whole: u32) -> Option<f64> {
     (whole > 0).then(|| f64::from(part) / f64::from(whole))
 }
 
-/// Row of a robot that walks, and looks again from the middle of what it believes is a place.
+/// Row of a robot that walks, and looks again from the believed middle of a place.
 const ON_THE_WAY: &str = "Ours, on the way";
 
 /// Returns the rows of single sweeps: each setting in the mazes as they are drawn, and with wide
@@ -232,7 +232,7 @@ pub(super) fn run(courses: &[Course], job: &Job<'_>) -> Result<Fields, BoxError>
     Ok(tally.finished().fields()?)
 }
 
-/// Returns one sweep from every cell that the robot can reach.
+/// Makes one sweep from every cell that the robot can reach, and adds it to the tally.
 fn sweep_all(
     setting: &Setting,
     course: &Course,

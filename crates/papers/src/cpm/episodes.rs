@@ -24,7 +24,7 @@ const MOST_EPISODES: u32 = 10_000;
 const MOST_FRAGMENTS: u32 = 100_000;
 
 record! {
-    /// A trial of CPM, and what its rivals need to be as good, if CPM solves the maze.
+    /// A trial of CPM, and the requirements for its rivals to be as good, if CPM solves the maze.
     #[check(EpisodesRun::relations)]
     struct EpisodesRun {
         /// Length of CPM's way in its second episode.
@@ -249,8 +249,8 @@ fn random_walk(graph: &JunctionTask, wanted: u32, seed: u64) -> Option<Walked> {
     None
 }
 
-/// Walks one episode and returns its length: at each junction it takes a random branch other than
-/// the one it came by.
+/// Walks one episode and returns its length. At each junction it takes a random branch other than
+/// the one behind.
 fn wander(graph: &JunctionTask, rng: &mut impl Rng) -> u64 {
     let (mut at, mut cells) = (graph.start, 0);
     let mut came: Option<u32> = None;

@@ -66,7 +66,7 @@ impl ExploredRun {
     }
 }
 
-/// Returns the trials. If the mazes are the paper's, as `papers` says, drawn ones are added.
+/// Returns the trials. If `papers` is true, the mazes are the paper's, and drawn ones are added.
 pub(super) fn explored(courses: &[Course], papers: bool, options: &Options) -> Trials {
     let mut settings = in_both_modes(courses);
     if papers {

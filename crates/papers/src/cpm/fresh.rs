@@ -98,7 +98,7 @@ record! {
         right: bool => higher("map right"),
         /// Whether the goal is on the map.
         goal_found: bool => higher("goal found"),
-        /// Whether it said, before it drove, that it cannot work there.
+        /// Whether it declared, before it drove, that it cannot work there.
         abstained: bool => neither("abstained"),
         /// Whether a place of the map stands for two true places.
         false_merge: Option<bool> => lower("false merges"),
@@ -175,7 +175,7 @@ impl FreshRun {
     }
 }
 
-/// Returns the table.
+/// Returns the table of the fresh worlds.
 pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
     let worlds = options.runs_else(WORLDS, QUICK);
     Table::of::<FreshRun>(FRESH, "Fresh worlds: each run another drawing")

@@ -40,9 +40,9 @@ record! {
     /// A robot that is put down in mid-fragment.
     #[check(LocalizationRun::relations)]
     struct LocalizationRun {
-        /// Probability that an observer guesses correctly who sees every bend of the corridor.
+        /// Probability that an observer who sees every bend of the corridor guesses correctly.
         bends_percent: f64 => neither("could be known by bends").percent().decimals(1),
-        /// Probability that an observer guesses correctly who also sees the places at the ends.
+        /// Probability that an observer who also sees the places at the ends guesses correctly.
         places_percent: f64 => neither("could be known by bends and places").percent().decimals(1),
         /// Whether the robot turned round.
         turned_round: bool => neither("turned round"),
@@ -116,7 +116,7 @@ pub(super) fn maps_of(job: &Job<'_>) -> Option<String> {
     (maze != ALIASED).then(|| format!("maps {}", job.run as usize % MAPS))
 }
 
-/// Returns the table.
+/// Returns the table of robots put down in mid-fragment.
 pub(super) fn table(courses: &[Course], options: &Options) -> Table {
     let title = "Put down in mid-fragment of one of the mazes";
     let runs = options.runs_else(RUNS, QUICK_RUNS);

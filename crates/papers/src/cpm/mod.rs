@@ -139,7 +139,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     Ok(Experiment::new(ENTRY, tables, cpm.config()?, cpm))
 }
 
-/// Returns by how many percent the second number is less than the first.
+/// Returns the percentage by which the second number is less than the first.
 fn less([first, second]: [f64; 2]) -> f64 {
     100.0 * (1.0 - second / first)
 }

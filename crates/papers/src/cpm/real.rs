@@ -49,7 +49,7 @@ pub(super) fn config() -> impl Serialize {
     }
 }
 
-/// Returns how it observes in the corridors of a course.
+/// Returns the configuration of a walker in the corridors of a course.
 fn walker(course: &Course) -> Result<WalkerConfig, BoxError> {
     let mut config = walker_config(&slow_epuck(), course.corridor_width)?;
     config.stride_s = STRIDE_S;

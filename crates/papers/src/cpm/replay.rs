@@ -103,7 +103,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// Returns the replay of a track, with what was recorded on it.
+    /// Returns the replay of a track, with everything recorded on it.
     fn replay(self, step_us: u64, job: &Job<'_>, mut track: RobotTrack) -> Replay {
         let scenery = Scenery::of_world(&self.course.world);
         track.maps = vec![MapGrowth {

@@ -86,7 +86,7 @@ pub(super) fn better() -> Mode {
     Mode::Reckoned(CpmConfig::robust())
 }
 
-/// Returns the trials of figure 9. `papers` says that the mazes are the paper's.
+/// Returns the trials of figure 9. `papers` tells whether the mazes are the paper's.
 pub(super) fn figure_9(courses: &[Course], papers: bool) -> Trials {
     let modes = [
         ("", faithful()),

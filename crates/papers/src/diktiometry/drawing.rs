@@ -14,8 +14,8 @@ const WIDTH: f64 = 560.0;
 /// Maximum number of boxes; more would cover each other and hide the world.
 const MOST_BOXES: usize = 100;
 
-/// Returns the places and links over the walls. Each place has its number and the box that contains
-/// it, as seen from where the robot began.
+/// Returns the places and links over the walls. Each place has its number and its box relative to
+/// the robot's start.
 ///
 /// The picture is large enough for all boxes. Maps of more than a hundred places are drawn without
 /// boxes and numbers.

@@ -11,7 +11,7 @@ use tolman_experiment::{BoxError, Record, Run};
 
 /// Width of a chart, user units.
 const WIDTH: f64 = 560.0;
-/// Maximum number of rows for which a table gets curves; more cannot be told apart.
+/// Maximum number of rows for which a table gets curves; more would be hard to tell apart.
 const MOST_CURVES: usize = 5;
 
 pub(super) fn of(trials: &[Trial], runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
@@ -66,7 +66,7 @@ fn slug(trial: &Trial) -> String {
     trial.name.replace(' ', "-")
 }
 
-/// Returns the map of a run, drawn from where the robot truly began.
+/// Returns the map of a run, drawn from the robot's true start.
 fn map(trial: &Trial, setting: &Setting, run: &Run, number: usize) -> Result<Figure, BoxError> {
     let survey = Survey::new(&setting.office, setting.config.clone(), run.seed)?.finish()?;
     let score = survey.score();

@@ -243,7 +243,7 @@ fn is_whole(places: f64, ways: f64) -> bool {
     places.min(ways) >= MapJudgement::ENOUGH
 }
 
-/// Returns the table.
+/// Returns the table of the fresh worlds.
 pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
     let runs = |row: &FreshRow| options.runs_else(row.worlds, QUICK);
     Table::of::<FreshRun>(FRESH, "Fresh worlds: each run another drawing")
@@ -278,7 +278,7 @@ pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
 }
 
 impl FreshRow {
-    /// Returns the configuration of the runs, without what the mapper knows of each drawing.
+    /// Returns the configuration of the runs, without the mapper's knowledge of each drawing.
     pub(super) fn config(&self) -> impl Serialize {
         #[derive(Serialize)]
         struct Settings {

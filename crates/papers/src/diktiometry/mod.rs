@@ -84,10 +84,10 @@ record! {
         purity: Option<f64> => higher("purity").share().decimals(4),
         /// Share of the map's links that lead where their action truly leads.
         link_precision: Option<f64> => higher("link precision").share().decimals(4),
-        /// Share of the present links that lead where they say.
+        /// Share of the believed present links that lead to their place.
         believed_precision: Option<f64> =>
             higher("precision of links believed now").share().decimals(4),
-        /// Share of the ways, as they were last seen, that lead where they say.
+        /// Share of the ways, as they were last seen, that still lead there.
         remembered_precision: Option<f64> =>
             higher("precision of ways as last seen").share().decimals(4),
         /// Share of the true ways of the whole world that are on the map.
@@ -99,7 +99,7 @@ record! {
         /// Share of the plans to existing places that work.
         plans: Option<f64> =>
             higher("working plans, to existing places").share().decimals(4),
-        /// Share of those plans that work by the ways as they were last seen.
+        /// Share of those plans that work with the ways as they were last seen.
         remembered_plans: Option<f64> =>
             higher("working plans, by ways as last seen").share().decimals(4),
         /// Share of all plans that lead to places that no longer exist.

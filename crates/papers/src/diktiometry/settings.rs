@@ -186,7 +186,7 @@ fn ablations(office: &Arc<Office>) -> Vec<Setting> {
     ABLATIONS.map(setting).into()
 }
 
-/// Returns a row with a maze of MSLST, and with the robot of that paper.
+/// Returns a row with a maze and the robot of MSLST's paper.
 fn mslst(row: &'static str, text: &str) -> Result<Setting, BoxError> {
     let file = tolman_maze::read(text)?;
     let mut furniture = OfficeConfig::bare();

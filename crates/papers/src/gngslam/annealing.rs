@@ -13,7 +13,7 @@ const LAST: f64 = 0.0099;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tried<T> {
     pub(super) parameters: Parameters,
-    /// The map.
+    /// Map that was learned.
     pub(super) map: T,
     /// Its score; 0 for a useless map.
     pub(super) score: f64,

@@ -1,4 +1,4 @@
-//! Pictures of what was learned, for reports and the command.
+//! Draws learned maps, for reports and the command.
 
 use alloc::collections::BTreeMap;
 

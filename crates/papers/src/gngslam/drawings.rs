@@ -34,7 +34,8 @@ const MOST_NODES: usize = 40;
 const WIDTH: f64 = 460.0;
 const IMAGE: f64 = 76.0;
 
-/// The best map of a row with at most [`MOST_NODES`] nodes: what is needed to learn it again.
+/// The settings of the best map of a row with at most [`MOST_NODES`] nodes, from which it can be
+/// learned again.
 struct Best {
     setting: Setting,
     parameters: Parameters,

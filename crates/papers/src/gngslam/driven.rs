@@ -32,11 +32,11 @@ record! {
         error_m: f64 => lower("error at the goal").unit("m").decimals(2),
         /// Mean distance at the beginning of a drive.
         start_m: f64 => neither("distance at the start").unit("m").decimals(2),
-        /// Share of drives that truly ended within 1 m of where the record was taken.
+        /// Share of drives that truly ended within 1 m of their record.
         near_percent: f64 => higher("within 1 m").percent(),
         /// Share of drives that began within 1 m of it.
         near_at_start_percent: f64 => neither("within 1 m at the start").percent(),
-        /// Share of drives at whose end the robot was at the goal's node, by its wheels.
+        /// Share of drives that ended at the goal's node by odometry.
         done_percent: f64 => higher("arrived, by its wheels").percent(),
         /// Number of pieces of a drive, each a turn and a leg of at most 0.4 m.
         pieces: f64 => lower("pieces of the way").decimals(1),

@@ -184,7 +184,7 @@ fn random_map(seed: u64) -> MapRun {
     }
 }
 
-/// Returns the index of a job's row among the settings; `None` if it is not one.
+/// Returns the index of a job's row among the settings; `None` if it is not there.
 fn place_of(job: &Job<'_>) -> Option<usize> {
     let is_row = |setting: &sets::Setting| (setting.table, setting.row) == (job.table, job.row);
     settings().iter().position(is_row)

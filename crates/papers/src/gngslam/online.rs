@@ -26,9 +26,10 @@ const WHEELS: &str = "wheels wrong by up to 10 %";
 const TAKEN_FOR_GOOD: &str = "taken for 3 %";
 const KNOWN_TO_BE_BAD: &str = "known to be 10 %";
 
-/// Seed of the first arena of that table, and the wheels' calibration error in its arenas.
+/// Seed of the first arena of that table.
 const FIRST_BAD: u64 = 101;
 const BAD_RUNS: u32 = 5;
+/// Maximum calibration error of the wheels in these arenas, as a share.
 const BADLY: f64 = 0.1;
 
 const BETTER: &str = "better";
@@ -62,7 +63,7 @@ record! {
         score: Option<f64> => higher("score to the border").share().decimals(3),
         /// Root-mean-square distance between that run's believed and true positions.
         tried_error_m: Option<f64> => lower("error on a run not learned from").unit("m").decimals(3),
-        /// Number of that run's looks after which it knew where it was; no value if it never did.
+        /// Number of that run's looks until it knew its place; no value if it never did.
         looks_to_localize: Option<u32> => lower("looks until localized"),
         /// Root-mean-square error of the position over the last tenth of a run.
         position_error_m: Option<f64> => lower("error, last tenth").unit("m").decimals(3),
@@ -172,7 +173,7 @@ fn tried(pitch: &Pitch, seed: u64) -> Result<OnlineFields, BoxError> {
     tried_with(pitch, OnlineSlamConfig::pioneer_2dx(), CALIBRATION, seed)
 }
 
-/// Returns the same as [`tried`], with other settings and wheels that are off by up to
+/// Returns the result of [`tried`] with other settings and wheels that are off by up to
 /// `calibration`.
 fn tried_with(
     pitch: &Pitch,

@@ -59,7 +59,7 @@ impl Places {
         }
     }
 
-    /// Returns what the records depend on, except the seed.
+    /// Returns the settings of the records, except the seed.
     pub(super) fn config(&self) -> Result<Config, BoxError> {
         let pitch = Pitch::paper()?;
         Ok(Config {

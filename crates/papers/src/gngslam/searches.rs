@@ -27,7 +27,7 @@ pub(super) struct Searches {
     seed: u64,
     /// Records by source.
     places: [Places; SOURCES.len()],
-    /// Searches by row and number. A caller waits while another one works on the search it needs.
+    /// Searches by row and number. A caller waits while another one works on the same search.
     started: Mutex<BTreeMap<(usize, u32), Shared>>,
 }
 
@@ -63,7 +63,7 @@ impl Searches {
         &self.places[setting.source]
     }
 
-    /// Returns what the records of all rows depend on.
+    /// Returns the settings of the records of all rows.
     pub(super) fn configs(&self) -> Result<Vec<super::places::Config>, BoxError> {
         self.places.iter().map(Places::config).collect()
     }

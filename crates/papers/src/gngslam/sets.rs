@@ -74,7 +74,7 @@ pub(super) struct Source {
     pub(super) scaling: FeatureScaling,
 }
 
-/// Records with wheels that slip by 2 % a step and otherwise count rightly. The paper says only
+/// Records with wheels that slip by 2 % per step and have no calibration error. The paper says only
 /// that its odometry "suffers from an accumulated noise".
 const PAPER: Source = Source {
     calibration: 0.0,

@@ -53,7 +53,7 @@ pub(super) fn table(sets: &[MazeSet]) -> Table {
         )
 }
 
-/// Returns how the mouse drives in the mazes of a set.
+/// Returns the speed-run settings for the mazes of a set: half-size if any is larger than 16 × 16.
 fn drive(set: &MazeSet) -> SpeedRunConfig {
     let larger = |maze: &Maze| maze.grid().width().max(maze.grid().height()) > 16;
     if set.mazes.iter().any(|(_, maze)| larger(maze)) {

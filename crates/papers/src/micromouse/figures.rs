@@ -53,7 +53,7 @@ pub(super) fn of(experiment: &Micromouse, runs: &[Run]) -> Result<Vec<Figure>, B
     Ok(figures)
 }
 
-/// Returns what the mouse knows after a number of steps, or at the end of its first run.
+/// Returns the mouse's map after `steps` steps, or at the end of its first run.
 fn known_after<S: Search>(
     maze: &Maze,
     mouse: &mut Driver<S>,

@@ -32,7 +32,7 @@ pub(super) struct LeftOut {
 }
 
 impl MazeSet {
-    /// Returns a set from which nothing is left out.
+    /// Returns a set without omissions.
     fn of(name: String, mazes: Vec<(String, Maze)>) -> Self {
         Self {
             name,
@@ -93,7 +93,7 @@ impl MazeSet {
         maze.ok_or_else(|| "there is no such run".into())
     }
 
-    /// Returns a sentence about what was left out; `None` if nothing was.
+    /// Returns a sentence about the mazes that were left out; `None` if none was.
     pub(super) fn complaint(&self) -> Option<String> {
         let LeftOut {
             no_maze,

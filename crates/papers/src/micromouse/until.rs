@@ -49,7 +49,7 @@ pub(super) fn run(set: &MazeSet, until: Until, job: &Job<'_>) -> Result<Fields, 
     Ok(SetRun::of(&judgement, name).fields()?)
 }
 
-/// Returns the judgement of a mouse whose random numbers follow from `seed`.
+/// Returns the judgement of a mouse whose random numbers are seeded by `seed`.
 fn judged(maze: &Maze, until: Until, seed: u64) -> Result<Judgement, BoxError> {
     let brief = brief(maze)?;
     let explorer = MoveExplorerConfig::tuned();

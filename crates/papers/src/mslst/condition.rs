@@ -110,7 +110,8 @@ impl Condition {
         robot
     }
 
-    /// Returns when a run's robot is lifted and where it is put down; `None` if it is not lifted.
+    /// Returns the time of a lift and the pose where the robot is put down; `None` if the robot is
+    /// not lifted.
     pub(super) fn lifted(self, venue: &Venue, seed: u64) -> Option<Lifted> {
         (self == Self::Lifted).then(|| Lifted {
             after: LIFTED_AFTER,
@@ -127,5 +128,5 @@ impl Condition {
     }
 }
 
-/// Number of time steps after which a robot is lifted: about half of what it needs to the goal.
+/// Number of time steps after which a robot is lifted: about half of the way to the goal.
 const LIFTED_AFTER: u32 = 30;

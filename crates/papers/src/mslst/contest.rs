@@ -51,7 +51,7 @@ pub(super) struct ContestConfig<'a> {
     learners: BTreeMap<&'a str, LearnerConfig>,
 }
 
-/// A world, the brains that compete in it, and what they share.
+/// A world, the brains that compete in it, and their common data.
 #[derive(Debug)]
 pub(super) struct Contest {
     pub(super) venue: Venue,
@@ -250,7 +250,7 @@ impl Contest {
         Ok(run.fields()?)
     }
 
-    /// Returns the trial of a run, its mind, and what that has learned.
+    /// Returns the trial of a run, its mind, and the state that the competitor has learned.
     fn cast(&self, job: &Job<'_>) -> Result<(Trial<'_>, Mind, &Ready), BoxError> {
         let competitor = self.competitor(job.row)?;
         let ready = competitor.ready(&self.venue, job.run)?;
@@ -281,7 +281,7 @@ impl Contest {
 }
 
 impl Competitor {
-    /// Returns what it has learned for this run. The first caller lets it learn.
+    /// Returns the competitor ready for this run. The first caller makes it learn.
     pub(super) fn ready(&self, venue: &Venue, run: u32) -> Result<&Ready, BoxError> {
         let number = run as usize % self.ready.len();
         let cell = &self.ready[number];

@@ -1,4 +1,4 @@
-//! Pictures of what was learned, for reports and the command.
+//! Draws learned maps, for reports and the command.
 
 use tolman_maps::mslst_graph::NodeZone;
 
@@ -81,6 +81,7 @@ fn over_maze(course: &Course, learned: &Learned, shown: usize, radius: f64) -> D
     plan.drawing(format!("The graph of a map over {}.", course.name))
 }
 
-/// The colours of nodes and of those in the destination.
+/// Colour of nodes.
 const NODE: Series = Series(0);
+/// Colour of nodes in the destination.
 const DESTINATION: Series = Series(4);

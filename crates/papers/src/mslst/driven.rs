@@ -62,7 +62,7 @@ pub(super) struct Driver<'a> {
 }
 
 impl Driver<'_> {
-    /// Drives from every start and returns the result. `lifted` says for each start whether the
+    /// Drives from every start and returns the result. `lifted` tells for each start whether the
     /// robot is put elsewhere on the way. `watch` is called with each episode and the oracle's.
     pub(super) fn drive(
         &self,

@@ -19,15 +19,15 @@ use tolman_systems::mslst::{Learned, MslstConfig, Navigator};
 /// A brain that competes.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Entrant {
-    /// An agent that learns nothing before.
+    /// An agent that learns nothing beforehand.
     Agent(Agent),
     /// MSLST, which learns a map first.
     Mslst(MslstConfig),
-    /// The better system, whose sensors have errors.
+    /// The better system, on sensors with errors.
     Better,
 }
 
-/// An entrant that has learned what it learns, ready for any number of runs.
+/// An entrant that has finished learning and is ready for any number of runs.
 #[derive(Debug)]
 pub(super) enum Ready {
     Agent(Agent),
@@ -77,7 +77,8 @@ impl Entrant {
         !matches!(self, Self::Agent(_))
     }
 
-    /// Returns what its runs depend on beside the world; corridors are `corridor_width` m wide.
+    /// Returns the configuration of its learner in corridors `corridor_width` m wide, or `None` if
+    /// it does not learn.
     pub(super) fn config(self, corridor_width: f64) -> Option<LearnerConfig> {
         match self {
             Self::Agent(_) => None,
@@ -90,7 +91,7 @@ impl Entrant {
         }
     }
 
-    /// Returns its robot. That of the better system has sensors with errors.
+    /// Returns its robot. The better system's robot has sensors with errors.
     pub(super) fn robot(self, venue: &Venue) -> LaserPioneerConfig {
         match self {
             Self::Agent(_) | Self::Mslst(_) => venue.robot.clone(),
@@ -138,7 +139,7 @@ impl Ready {
         }
     }
 
-    /// Returns what MSLST has learned; `None` for others.
+    /// Returns the map of MSLST; `None` for other entrants.
     pub(super) fn learned(&self) -> Option<&Learned> {
         match self {
             Self::Agent(_) | Self::Better(_) => None,

@@ -31,7 +31,7 @@ record! {
         actions: f64 => lower("actions").at_least(0),
         /// Mean number of time steps. A run that does not arrive counts as its limit.
         steps: f64 => lower("steps").at_least(0),
-        /// Mean number of time steps over the starts that arrive, if any does.
+        /// Mean number of time steps over the starts that arrive; no value if none does.
         steps_arrived: Option<f64> => lower("steps, arrived").at_least(0),
     }
 }
@@ -216,8 +216,8 @@ impl Family {
         Ok(run.fields()?)
     }
 
-    /// Returns the world of a run. A baseline gets that of the baseline before, which has planned
-    /// in it.
+    /// Returns the world of a run. A baseline gets the world of the baseline before, which has
+    /// already planned in it.
     fn venue_of(&self, entrant: &Entrant, job: &Job<'_>) -> Result<Arc<Venue>, BoxError> {
         if entrant.competes() {
             return Ok(Arc::new(self.venue(job)?));

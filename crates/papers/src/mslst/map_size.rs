@@ -11,7 +11,7 @@ use tolman_systems::mslst::ROBOT_UNIT;
 record! {
     /// A random maze that was learned.
     pub(super) struct MapSizeRun {
-        /// Whether the robot says that it has been everywhere and knows the goal.
+        /// Whether the robot states that it has been everywhere and knows the goal.
         finished: bool => higher("says finished"),
         /// Number of places on the map.
         nodes: u32 => neither("nodes"),

@@ -264,7 +264,7 @@ fn with_sonars() -> LaserPioneerConfig {
     robot
 }
 
-/// Returns the same maze with corridors `units` robot units wide.
+/// Returns the same maze with corridors of `units` robot units.
 fn widened(world: &World, units: f64) -> Result<World, BoxError> {
     let World::Fixed { course, steps } = world else {
         return Ok(world.clone());

@@ -69,7 +69,7 @@ pub(super) fn table() -> Table {
     ))
 }
 
-/// A network, what it learned, and its errors at [`MARKS`].
+/// A network, its training inputs, and its errors at [`MARKS`].
 pub(super) struct Learned {
     pub(super) quantizer: Box<dyn Quantizer<f64>>,
     pub(super) data: Vec<Point>,

@@ -1,4 +1,4 @@
-//! A real ring of 24 sonars: what its units say about the robot's action.
+//! Relates the units of a real ring of 24 sonars to the robot's action.
 
 use std::path::Path;
 
@@ -35,7 +35,7 @@ pub(crate) struct Log {
 }
 
 impl Log {
-    /// Returns the log; `None` if it is not here.
+    /// Returns the log; `None` if the file is missing.
     pub(crate) fn find() -> Result<Option<Self>, BoxError> {
         let path = data::folder().map(|folder| folder.join(FILE));
         match path {
@@ -106,7 +106,7 @@ record! {
         rms_error: f64 => lower("RMS error").unit("m").at_least(0),
         /// Number of units of the network.
         units: usize => neither("units").decimals(0),
-        /// Share of asked scans whose nearest unit tells the robot's action.
+        /// Share of tested scans whose nearest unit gives the robot's action.
         right_percent: f64 => higher("action predicted").percent().decimals(1),
     }
 }

@@ -40,7 +40,7 @@ struct Known {
     /// Factor for the stated standard deviations.
     scale: f64,
     false_closures: usize,
-    /// The right part of the file, and its true poses; `None` if it is not here.
+    /// The right part of the file, and its true poses; `None` if the file is missing.
     graph: Option<(GraphFile, Vec<Pose>)>,
 }
 

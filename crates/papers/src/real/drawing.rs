@@ -1,4 +1,4 @@
-//! Pictures of what was found from a log.
+//! Draws the results from a log.
 
 use tolman_draw::{Drawing, FloorPlan, Image, ImageError, Series};
 use tolman_formats::MapCell;
@@ -74,8 +74,8 @@ impl MapPicture {
         }
     }
 
-    /// Returns the reason why the map is doubtful, in a sentence without a full stop; `None` if it
-    /// is not.
+    /// Returns the reason to doubt the map, as a sentence without a full stop; `None` if there is
+    /// none.
     #[must_use]
     pub fn doubt(&self) -> Option<String> {
         let percent = 100.0 * self.contradicted;

@@ -1,4 +1,5 @@
-//! Replays of logs: the way found and the odometry, what the laser read, and the map as it grew.
+//! Makes replays of logs: the estimated trajectory, the odometry, the laser's readings, and the map
+//! as it grew.
 
 use tolman_geom::Point;
 use tolman_maps::scan_matching::OccupancyGrid;
@@ -47,7 +48,8 @@ impl MappedLog {
         self.keyframes.get(keyframe).map_or(0, |scan| *scan as u32)
     }
 
-    /// Returns what the laser read at each keyframe.
+    /// Returns the scans at the keyframes, thinned to the beams that are shown. `None` if the log
+    /// has no scan.
     fn readings(&self, log: &RobotLog) -> Option<Scans> {
         let of_first = log.scans.first()?.scan.ring;
         let every = of_first.beams.div_ceil(SHOWN_BEAMS).max(1);

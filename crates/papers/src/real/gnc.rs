@@ -19,7 +19,7 @@ const SCRIPT: &str = include_str!("gnc.py");
 /// Maximum duration, s.
 const CAP: f64 = 600.0;
 
-/// Maximum duration as a multiple of the audit's time, and the minimum of that limit, s.
+/// Maximum duration as a multiple of the audit's time.
 const TIMES: f64 = 40.0;
 const LEAST: f64 = 60.0;
 
@@ -48,7 +48,7 @@ impl Gnc {
         found.then_some(Self { python })
     }
 
-    /// Runs it on a graph whose edges from `right` on are false, with standard deviations
+    /// Runs GTSAM on a graph whose edges from `right` on are false, with standard deviations
     /// multiplied by `scale`. `ours` is the duration of the audit, s.
     pub(super) fn run(
         &self,

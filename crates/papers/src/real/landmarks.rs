@@ -100,7 +100,7 @@ pub(super) fn steps_of(reckoned: &Trajectory) -> Vec<f64> {
         .collect()
 }
 
-/// Adds a pose to which the wheels have led, and returns its id.
+/// Adds a pose by odometry, and returns its id.
 fn step(graph: &mut PoseGraph, before: Option<u32>, moved: Pose) -> Result<u32, PoseGraphError> {
     let Some(before) = before else {
         return Ok(graph.add_pose(Pose::IDENTITY));

@@ -57,7 +57,7 @@ impl LogSystem {
         Self::PlaceGraph,
     ];
 
-    /// Returns the name, as `tolman map --log` takes it.
+    /// Returns the name as in `tolman map --log`.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -181,8 +181,8 @@ impl RobotLog {
         odometry.iter().map(|pose| over.compose(*pose)).collect()
     }
 
-    /// Finds the way of the robot by `system`, from the poses of `odometry`, and returns it. Calls
-    /// `see` after each scan with the number of scans so far.
+    /// Estimates the robot's trajectory by `system`, from the poses of `odometry`, and returns it.
+    /// Calls `see` after each scan with the number of scans so far.
     ///
     /// # Errors
     /// If a scan is invalid.

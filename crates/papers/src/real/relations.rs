@@ -50,7 +50,7 @@ pub(super) struct Intel {
     dense: OnceLock<MappedLog>,
 }
 
-/// Returns the path of a data file; `None` if it is not here.
+/// Returns the path of a data file; `None` if it is missing.
 pub(super) fn file(name: &str) -> Option<PathBuf> {
     let path = data::folder()?.join(name);
     path.exists().then_some(path)

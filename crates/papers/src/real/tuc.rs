@@ -1,4 +1,5 @@
-//! A corridor whose places look alike: which matches between an image and older ones are true.
+//! Recognizes places in a corridor where they look alike: tells which matches between an image and
+//! older ones are true.
 
 use alloc::collections::BTreeMap;
 

@@ -32,7 +32,7 @@ const RANDOM: &str = "random";
 /// Numbers of the robot that learns, and of the robot that uses its map.
 const PAIRS: [[u32; 2]; 6] = [[1, 2], [1, 3], [2, 1], [2, 3], [3, 1], [3, 2]];
 
-/// Time for which a robot remembers what it saw, s.
+/// Time for which a robot remembers its sightings, s.
 const MEMORY_S: f64 = 10.0;
 /// Minimum number of known landmarks for an answer.
 const LEAST_SEEN: usize = 2;

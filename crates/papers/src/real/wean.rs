@@ -24,7 +24,7 @@ const ROWS: [(&str, &str); 3] = [
 const NEAR: f64 = 1.5;
 
 record! {
-    /// A map of one day, compared with that of another.
+    /// A map of one day, compared with a map of another day.
     struct WeanRun {
         /// Length of the robot's way, m.
         way_m: f64 => neither("way").unit("m").decimals(0),

@@ -72,7 +72,7 @@ pub(crate) struct Played {
     pub(crate) mean_steps: f64,
 }
 
-/// A condition, and by how much a drawing misses it.
+/// A condition, and the amount by which a drawing misses it.
 #[derive(Clone, Copy, Debug)]
 struct Judgement {
     condition: Condition,
@@ -83,7 +83,7 @@ struct Judgement {
 /// A condition that a drawing must meet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Condition {
-    /// Right-hand tours arrive as often as the paper's Wall-follow may have.
+    /// Right-hand tours arrive as often as the paper's Wall-follow may have arrived.
     Traps,
     /// The Oracle is no slower than the paper's MSLST was.
     OracleSteps,
@@ -128,7 +128,7 @@ impl Drawing {
         })
     }
 
-    /// Returns whether the lists say that this drawing is kept; `None` beyond their end.
+    /// Returns whether the lists keep this drawing; `None` beyond their end.
     pub(crate) fn listed(self, number: u32) -> Option<bool> {
         match self {
             Self::J => (number <= J_DRAWING).then_some(number == J_DRAWING),

@@ -58,7 +58,7 @@ impl MazeRun {
     }
 }
 
-/// Returns how a run ended, in words.
+/// Returns the outcome of a run in words.
 const fn outcome(reached: bool) -> &'static str {
     if reached { "reached" } else { "timed out" }
 }

@@ -50,7 +50,7 @@ impl<const N: usize> CellSet<N> {
         cell.x < 32 && row >> cell.x & 1 == 1
     }
 
-    /// Returns the cells whose value a predicate holds for.
+    /// Returns the cells for whose value a predicate holds.
     pub(super) fn filter(values: &[[u16; N]; N], holds: impl Fn(u16) -> bool) -> Self {
         let mut set = Self::EMPTY;
         for (row, values) in set.rows.iter_mut().zip(values) {

@@ -154,7 +154,7 @@ impl<const N: usize> Chart<N> {
         self.goals.contains(across) || onward.any(|on| self.certain.contains(across, on))
     }
 
-    /// Looks to the four sides, each as far as the next wall. Whether there was anything new.
+    /// Looks to the four sides, each as far as the next wall. Returns whether anything was new.
     fn look(&mut self, truth: &Sides<N>, from: Cell) -> bool {
         let (mut news, mut shorter) = (false, false);
         let limit = self.closed.unwrap_or(u16::MAX);
@@ -267,7 +267,7 @@ mod tests {
         Chart::new(maze, start, maze.goals()).unwrap()
     }
 
-    /// Fewest leaps between two cells, by adding one leap to all ways at a time.
+    /// Returns the fewest leaps between two cells, by adding one leap to all ways at a time.
     fn fewest(chart: &Chart<8>, from: Cell, to: Cell) -> u16 {
         let mut reached = Vec::from([from]);
         for steps in 0.. {
@@ -315,7 +315,7 @@ mod tests {
         }
     }
 
-    /// Of a maze that is known nothing is new: a drive takes the steps of its course.
+    /// In a known maze nothing is new: a drive takes the steps of its course.
     #[test]
     fn a_drive_over_known_ground_ends_at_its_target() {
         let maze = maze(5);
@@ -329,7 +329,7 @@ mod tests {
         }
     }
 
-    /// Wherever it looks, what it keeps up to date is what a new chart would say.
+    /// Checks that a chart kept up to date equals a new one, wherever the mouse looks.
     #[test]
     fn a_chart_that_looks_is_as_one_made_anew() {
         for seed in 0..6 {

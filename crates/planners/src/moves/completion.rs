@@ -14,7 +14,7 @@ pub(super) struct Completions<'a, const N: usize> {
     /// The unknown sides, as many as there are.
     order: [[[(Cell, Direction); 2]; N]; N],
     unknown: usize,
-    /// What a side that leads into the goal is, by whether another is known to be open.
+    /// Kind of an unknown side that leads into the goal, by whether another is known to be open.
     entrance: GoalSide,
     rng: SplitMix,
 }
@@ -79,7 +79,8 @@ impl<'a, const N: usize> Completions<'a, N> {
     }
 }
 
-/// Returns what an unknown side that leads into the goal is.
+/// Returns [`GoalSide::Another`] if an open side is known that leads into the goal, else
+/// [`GoalSide::First`].
 fn entrance<const N: usize>(chart: &Chart<N>) -> GoalSide {
     let is_entrance = |cell: Cell, side: Direction| {
         let next = cell.beyond(side);
@@ -96,7 +97,8 @@ fn entrance<const N: usize>(chart: &Chart<N>) -> GoalSide {
     }
 }
 
-/// A maze that is drawn in part: what is known or drawn to be open, and what may still be.
+/// A maze that is drawn in part: the sides known or drawn to be open, and those that may still be
+/// open.
 struct Draw<const N: usize> {
     hoped: Sides<N>,
     certain: Sides<N>,

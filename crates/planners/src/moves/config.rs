@@ -15,8 +15,7 @@ pub struct MoveExplorerConfig {
     /// While no way to the goal is known: steps that each unknown wall on the hoped-for way counts
     /// as. ≥ 0.
     pub unknown_wall: f32,
-    /// While no way to the goal is known: steps that seeing one more unknown side of a cell is
-    /// worth. ≥ 0.
+    /// While no way to the goal is known: value of one more visible unknown side, steps. ≥ 0.
     pub sight: f32,
     /// Gain per distance from which a stop comes before the way to the goal, while no way to the
     /// goal is known. ≥ 0.
@@ -32,7 +31,7 @@ pub struct MoveExplorerConfig {
 }
 
 impl MoveExplorerConfig {
-    /// Returns the one configuration of all our figures. `docs/micromouse.md` says how it was
+    /// Returns the only configuration of all our figures. `docs/micromouse.md` explains how it was
     /// chosen.
     #[must_use]
     pub const fn tuned() -> Self {
@@ -67,14 +66,15 @@ impl MoveExplorerConfig {
 pub struct MoveExplorerConfigError {
     /// The name of the field.
     pub field: &'static str,
-    /// Its value.
+    /// Value that was given.
     pub value: f32,
     /// Values that the field may have.
     pub range: &'static str,
 }
 
 impl MoveExplorerConfigError {
-    /// Returns an error for the first of the fields that is out of its range or not finite.
+    /// Checks that each field is finite and within its range. The error names the first that is
+    /// not.
     pub(super) fn check(fields: impl IntoIterator<Item = CheckedField>) -> Result<(), Self> {
         let wrong = fields
             .into_iter()

@@ -62,7 +62,7 @@ enum Goal {
 pub enum MoveDecision {
     /// Drive there, and look around.
     Drive(Leap),
-    /// Turn right in place, to see what lies behind.
+    /// Turn right in place, to see the side behind.
     Turn,
     /// The mouse was at a goal, and no run from the start takes fewer steps than the best known
     /// one, whatever the unknown walls are. Its length:
@@ -86,8 +86,7 @@ pub(super) enum Task {
     Decided(MoveDecision),
     /// Drive to this cell.
     DriveTo(Cell),
-    /// The mouse was at the goal and knows a run of this length: to look at what might make a
-    /// better one.
+    /// The mouse was at the goal and knows a run of this length: look for a better one.
     Prove {
         /// Number of steps.
         closed: u16,
@@ -95,8 +94,8 @@ pub(super) enum Task {
 }
 
 impl Task {
-    /// Returns what it comes to in the cell `at`; `prove` chooses the stop to drive to where a run
-    /// is to be proved.
+    /// Returns the mouse's next move in the cell `at`. `prove` chooses the stop where a run is to
+    /// be proved.
     pub(super) fn decide<const N: usize>(
         self,
         chart: &Chart<N>,
@@ -114,7 +113,7 @@ impl Task {
 }
 
 impl<const N: usize> MoveExplorer<N> {
-    /// Returns an explorer for a mouse that makes its runs from `start` and has seen nothing.
+    /// Returns an explorer for a mouse without observations that makes its runs from `start`.
     ///
     /// # Errors
     /// If a weight is out of its range.
@@ -145,7 +144,7 @@ impl<const N: usize> MoveExplorer<N> {
         Ok(self.task(&chart, at).decide(&chart, at, prove))
     }
 
-    /// Returns the chart of what is known, seen from the mouse's cell.
+    /// Returns the chart of the known walls, as seen from the mouse's cell.
     pub(super) fn chart(
         &mut self,
         walls: &impl Walls,
@@ -184,7 +183,7 @@ impl<const N: usize> MoveExplorer<N> {
         target.map_or(Task::Decided(MoveDecision::Stuck), Task::DriveTo)
     }
 
-    /// Returns where to look while no way to the goal is known.
+    /// Returns the best cell to look from while no way to the goal is known.
     fn best_approach(&self, chart: &Chart<N>, at: Cell) -> Option<Cell> {
         let config = &self.config;
         let unknown = chart.unknown().cells();
@@ -210,8 +209,8 @@ impl<const N: usize> MoveExplorer<N> {
         stops.best()
     }
 
-    /// Returns what to look at for the proof, the best first, when runs of `limit` steps and more
-    /// do not matter.
+    /// Returns the best stops for the proof, the best first. Runs of `limit` steps and more do not
+    /// matter.
     pub(super) fn proofs<const K: usize>(
         &self,
         chart: &Chart<N>,
@@ -241,13 +240,14 @@ impl<const N: usize> MoveExplorer<N> {
         near.unwrap_or_else(|| libm::powf(f32::from(moves), self.config.nearness))
     }
 
-    /// Returns whether a look around from `cell` tells anything about runs of less than `limit`
+    /// Returns whether a look around from `cell` can tell anything about runs of less than `limit`
     /// steps.
     pub(super) fn tells(&self, chart: &Chart<N>, cell: Cell, limit: u16) -> bool {
         self.told(chart, cell, limit) > 0.0
     }
 
-    /// Returns what a look around from `cell` tells about runs of less than `limit` steps.
+    /// Returns the worth of a look around from `cell`: how much it tells about runs of less than
+    /// `limit` steps.
     fn told(&self, chart: &Chart<N>, cell: Cell, limit: u16) -> f32 {
         let mut told = 0.0;
         // A leap over one of the sides begins or ends at the cell or drives over it. So a run with
@@ -268,7 +268,7 @@ impl<const N: usize> MoveExplorer<N> {
     }
 
     /// Returns the maximum gain of a stop. One of its four sides is known: the one by which the
-    /// mouse gets there.
+    /// mouse arrives.
     fn most_told(&self) -> f32 {
         (Direction::ALL.len() - 1) as f32 * (self.config.base + 1.0)
     }
@@ -284,7 +284,7 @@ fn nearest_goal<const N: usize>(chart: &Chart<N>, at: Cell) -> Option<Cell> {
     reached.min_by_key(|goal| here.moves(*goal))
 }
 
-/// Returns a whole power.
+/// Returns `base` to the power `exponent`.
 fn power(base: f32, exponent: u16) -> f32 {
     (0..exponent).fold(1.0, |power, _| power * base)
 }

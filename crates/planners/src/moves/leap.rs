@@ -35,7 +35,7 @@ impl Leap {
         })
     }
 
-    /// Returns the leaps from a cell in one direction, as far as the cells before are open to it.
+    /// Returns the leaps from a cell in one direction, up to the first wall.
     pub(super) fn row(
         from: Cell,
         direction: Direction,

@@ -22,7 +22,7 @@ pub struct MoveMap<const N: usize> {
     /// Number of cells at most n steps away, by n, below `levels`.
     within: [[u16; N]; N],
     levels: u16,
-    /// The first and the last number of steps that sides closed since put in doubt.
+    /// First and last number of steps that sides closed since the last mending put in doubt.
     stale: Option<(u16, u16)>,
 }
 
@@ -62,8 +62,7 @@ impl<const N: usize> MoveMap<N> {
         map
     }
 
-    /// Numbers the cells, from the front of `wave` on, until all that was put in doubt is certain
-    /// again.
+    /// Numbers the cells, from the front of `wave` on, until all doubtful cells are certain again.
     fn spread(
         &mut self,
         sides: &Sides<N>,
@@ -103,7 +102,7 @@ impl<const N: usize> MoveMap<N> {
         slot.copied().unwrap_or(0)
     }
 
-    /// Takes note that one of the `sides` was closed. The map is out of date until it is
+    /// Records that one of the `sides` was closed. The map is out of date until it is
     /// [mended](Self::mend).
     pub(super) fn side_closed(&mut self, sides: &Sides<N>, cell: Cell, side: Direction) {
         sides.leaps_over(cell, side, |tail, head| {

@@ -8,8 +8,8 @@ pub(super) struct Stage {
     pub(super) learned: u64,
 }
 
-/// The stages of the explorer's own play, and after how many steps it came to each; the first of
-/// them.
+/// The stages of the explorer's own play, each with the number of steps until then; the first
+/// stages only.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Play {
     stages: [Option<(Stage, f32)>; Self::MOST],
@@ -34,7 +34,7 @@ impl Play {
         }
     }
 
-    /// Returns the number of steps after which it came to a stage, if it did.
+    /// Returns the number of steps until a stage, or `None` if the play did not reach it.
     pub(super) fn steps_at(&self, stage: Stage) -> Option<f32> {
         let mut stages = self.stages.iter().map_while(|stage| *stage);
         stages

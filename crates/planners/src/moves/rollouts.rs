@@ -113,8 +113,8 @@ impl<const N: usize> Rollouts<N> {
         })
     }
 
-    /// Returns the same rollouts, but they stop as soon as the rest of the proof is expected to
-    /// cost more than it gains: see [`WorthConfig`].
+    /// Returns the same rollouts, which stop as soon as the rest of the proof is expected to cost
+    /// more than it gains: see [`WorthConfig`].
     ///
     /// # Errors
     /// If a value is out of its range.
@@ -160,7 +160,8 @@ impl<const N: usize> Rollouts<N> {
         Some(aim.stop)
     }
 
-    /// Returns the stop chosen before, if nothing new was seen since and it still tells something.
+    /// Returns the stop chosen before, if nothing new was seen since and it can still tell
+    /// something.
     fn kept_aim(&self, chart: &Chart<N>, at: Cell, closed: u16) -> Option<Aim> {
         self.aim.filter(|aim| {
             aim.unknown == chart.unknown().len()
@@ -169,7 +170,7 @@ impl<const N: usize> Rollouts<N> {
         })
     }
 
-    /// Returns the stop to drive to, of those that the base policy thinks best.
+    /// Returns the best stop to drive to, among those that the base policy rates highest.
     fn choose(&self, chart: &Chart<N>, at: Cell, closed: u16) -> Option<Cell> {
         let stops = self.base.proofs::<{ STOPS }>(chart, at, closed);
         let own = stops.best()?;
@@ -209,8 +210,8 @@ impl<const N: usize> Rollouts<N> {
         Some(best.1)
     }
 
-    /// Returns mazes that agree with all that is known. As long as the number of unknown walls is
-    /// the same, so are the mazes.
+    /// Returns mazes that agree with all known walls. They stay the same as long as the number of
+    /// unknown walls does.
     pub(super) fn completions<'a>(&self, chart: &'a Chart<N>) -> Completions<'a, N> {
         let seed = self.config.seed ^ u64::from(chart.unknown().len()) << 32;
         Completions::new(chart, SplitMix::new(seed))

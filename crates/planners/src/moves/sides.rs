@@ -10,9 +10,9 @@ use crate::{Passages, TooLarge, Unknown};
 /// for all cells at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Sides<const N: usize> {
-    /// The cells whose northern side is in the set.
+    /// Cells whose northern side is in the set.
     north: CellSet<N>,
-    /// The cells whose eastern side is in the set.
+    /// Cells whose eastern side is in the set.
     east: CellSet<N>,
 }
 
@@ -22,7 +22,7 @@ impl<const N: usize> Sides<N> {
         east: CellSet::EMPTY,
     };
 
-    /// Returns the open sides of a maze as far as it is known. O(N²).
+    /// Returns the known open sides of a maze. O(N²).
     ///
     /// # Errors
     /// If the maze has more than `N` columns or rows.
@@ -88,7 +88,7 @@ impl<const N: usize> Sides<N> {
         }
     }
 
-    /// Returns how many sides, each counted once.
+    /// Returns the number of sides, each counted once.
     pub(super) fn len(&self) -> u32 {
         self.north.len() + self.east.len()
     }

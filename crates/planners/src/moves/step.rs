@@ -5,9 +5,9 @@ use super::Leap;
 /// A mouse's move in one step: first the turn, then the movement (the paper, section 1.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MouseStep {
-    /// The turn.
+    /// Turn in place before driving.
     pub turn: QuarterTurn,
-    /// Cells to drive, −3 to 3; back where it is negative, without turning round.
+    /// Number of cells to drive, −3 to 3; negative values drive back without turning round.
     pub cells: i8,
 }
 
@@ -45,8 +45,8 @@ impl QuarterTurn {
 }
 
 impl MouseStep {
-    /// Returns the step of a mouse that looks to `heading` and leaps; then it looks to where
-    /// `heading` says.
+    /// Returns the step of a mouse that looks to `heading` and leaps. Sets `heading` to its new
+    /// direction.
     #[must_use]
     pub fn of_leap(heading: &mut Direction, leap: Leap) -> Self {
         let cells = leap.cells.min(Leap::MOST_CELLS) as i8;

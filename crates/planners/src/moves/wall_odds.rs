@@ -1,6 +1,6 @@
 use tolman_maze::{Cell, Direction, Knowledge};
 
-/// Relation of a side to the goal, if it has one.
+/// Relation of a side to the goal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum GoalSide {
     /// Between two cells of the goal.
@@ -12,7 +12,7 @@ pub(super) enum GoalSide {
 }
 
 /// Returns the log-odds that the `side` of `cell` is open, in a maze of competitions. `side` is
-/// north or east; `sight` tells what is known of other sides, and takes all outside for walls.
+/// north or east; `sight` gives the knowledge of other sides, and walls for everything outside.
 ///
 /// A network with one hidden layer of rectifiers looks at the [`AROUND`] nearest sides.
 /// `wall_odds.py` fitted it to the classic mazes.

@@ -24,15 +24,15 @@ pub struct WorthConfig {
     /// Number of mazes drawn for a decision, in place of
     /// [`RolloutConfig::completions`](super::RolloutConfig::completions). ≥ 1.
     pub completions: u16,
-    /// Factor on the expected gain, > 0. Drawn mazes are not as odd as real ones, and what they
-    /// never show can be worth most.
+    /// Factor on the expected gain, > 0. Drawn mazes are less odd than real ones, and the oddities
+    /// that they never show can be worth most.
     pub gain: f32,
     /// Price of a step of the exploration, in steps of the run. > 0; the rules have a thirtieth.
     pub step_price: f32,
 }
 
 impl WorthConfig {
-    /// Returns the one configuration of all our figures. `docs/micromouse.md` says how it was
+    /// Returns the only configuration of all our figures. `docs/micromouse.md` explains how it was
     /// chosen.
     #[must_use]
     pub const fn tuned() -> Self {
@@ -70,8 +70,8 @@ struct Payoff {
 }
 
 impl<const N: usize> Rollouts<N> {
-    /// Returns whether to look on costs more than it is expected to gain, from the cell `at` where
-    /// the known run takes `closed` steps.
+    /// Returns whether further looks cost more than they are expected to gain, from the cell `at`,
+    /// if the known run takes `closed` steps.
     pub(super) fn is_enough(
         &self,
         worth: &WorthConfig,

@@ -13,7 +13,7 @@ use crate::{Arcs, costs_from};
 /// A speed run, with the claim that none is faster.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SpeedRunCertificate {
-    /// Cell in whose middle it begins.
+    /// Cell in whose middle the run begins.
     pub start: Cell,
     /// Heading of the mouse at the beginning.
     pub heading: Direction,
@@ -27,21 +27,25 @@ pub struct SpeedRunCertificate {
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum SpeedRunCertificateError {
-    /// A straight or turn that cannot be made where the mouse is, such as a diagonal in the middle
+    /// A straight or turn is impossible at the mouse's position, such as a diagonal in the middle
     /// of a cell.
-    #[error("move {number} ({run_move:?}) cannot be made from where the mouse is then")]
+    #[error(
+        "move {number} ({run_move:?}) cannot be made from the mouse's position then: search the run again"
+    )]
     Impossible {
         /// Number of the move, from 0.
         number: usize,
-        /// The move.
+        /// Move that fails.
         run_move: RunMove,
     },
     /// A move through a wall, or through an unknown one.
-    #[error("move {number} ({run_move:?}) crosses an edge that is not known to be open")]
+    #[error(
+        "move {number} ({run_move:?}) crosses an edge that is not known to be open: look at it first"
+    )]
     NotOpen {
         /// Number of the move, from 0.
         number: usize,
-        /// The move.
+        /// Move that fails.
         run_move: RunMove,
     },
     /// The run does not end in the middle of a goal.

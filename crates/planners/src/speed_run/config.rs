@@ -36,8 +36,8 @@ pub struct SpeedProfile {
     pub top_speed_mm_s: f64,
 }
 
-/// Duration of each slalom turn, in whole milliseconds, 1 or more. [`Slalom`](super::Slalom) says
-/// from where to where they lead.
+/// Duration of each slalom turn, in whole milliseconds, 1 or more. [`Slalom`](super::Slalom)
+/// defines their beginnings and ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -105,7 +105,7 @@ pub enum SpeedRunConfigError {
     NotPositive {
         /// Name of the field.
         field: &'static str,
-        /// Its value.
+        /// Value that was given.
         value: f64,
     },
     /// A top speed below the speed in the turns.
@@ -115,7 +115,7 @@ pub enum SpeedRunConfigError {
     TopSpeedTooLow {
         /// Name of the field.
         field: &'static str,
-        /// Its value.
+        /// Value that was given.
         value: f64,
         /// The speed in the turns.
         turn_speed_mm_s: f64,
@@ -129,8 +129,8 @@ pub enum SpeedRunConfigError {
         /// The longest move.
         longest_ms: u64,
     },
-    /// The longest move takes too many times as long as the shortest: the search would need more
-    /// buckets than it has.
+    /// The longest move takes too many times as long as the shortest, so that the search would need
+    /// more buckets than it has.
     #[error(
         "the longest move takes {longest_ms} ms, more than {most} times as long as the shortest with \
          {shortest_ms} ms: use a map for larger mazes"

@@ -46,7 +46,7 @@ pub enum Decision {
 }
 
 impl<'a, const N: usize> SpeedRunExplorer<'a, N> {
-    /// Returns an explorer that has seen nothing, for a mouse that starts in `home`, looking to
+    /// Returns an explorer without observations, for a mouse that starts in `home`, looking to
     /// `heading`.
     #[must_use]
     pub const fn new(

@@ -159,7 +159,7 @@ impl<const N: usize> SpeedRunMap<N> {
         self.buckets.insert(times.bucket(time), node.cell);
     }
 
-    /// Goes on from every state of `cell` whose time lies in `bucket`, the first that is not empty.
+    /// Continues from every state of `cell` whose time lies in `bucket`, the first nonempty one.
     fn settle(&mut self, cell: usize, bucket: usize, sides: &[u8], times: &SpeedRunTimes<N>) {
         let (Some(states), Some(by_straight)) = (
             self.times.as_flattened().get(cell).copied(),

@@ -8,12 +8,12 @@ use super::{RunState, SlalomTimes};
 pub enum RunMove {
     /// A number of cells straight on.
     Straight {
-        /// 1 or more.
+        /// Number of cells, 1 or more.
         cells: u16,
     },
     /// A number of cells straight on along a diagonal, from edge to edge.
     Diagonal {
-        /// 1 or more.
+        /// Number of cells, 1 or more.
         cells: u16,
     },
     /// A slalom turn.
@@ -25,15 +25,16 @@ pub enum RunMove {
     },
 }
 
-/// The slalom turns. Each contains what it needs of straight before and behind it.
+/// The slalom turns. Each contains the straight that it needs before and behind it.
 ///
 /// The descriptions are for a mouse in the middle of a cell that looks north and turns right. Out
 /// of a diagonal, the mouse stands on a cell's western edge, looks north-east and turns to its only
 /// possible side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Slalom {
-    /// 45°: from the middle of a cell through the cell to the north onto the eastern edge of that
-    /// one. And back: from a diagonal through the northern edge into the middle of the cell there.
+    /// 45°: from the middle of a cell through the cell to the north onto that one's eastern edge.
+    /// Also the reverse: from a diagonal through the northern edge into the middle of the cell
+    /// there.
     F45,
     /// 90°: through the cell to the north into the middle of the cell east of that one.
     F90,
@@ -52,7 +53,7 @@ pub enum Slalom {
 pub struct RunStep {
     /// State of the mouse before it.
     pub from: RunState,
-    /// The move.
+    /// Straight or turn of this step.
     pub run_move: RunMove,
 }
 

@@ -39,7 +39,7 @@ impl<'a, const N: usize> SpeedRunPlanner<'a, N> {
         }
     }
 
-    /// Takes in what is open now. O(N²) if a best run is left of those known, else as
+    /// Takes in the present openings. O(N²) if one of the known best runs is still open, else as
     /// [`SpeedRunMap::search`].
     pub fn update(&mut self, passages: &Passages<N>) -> Replanning {
         let only_closed = |before: &Passages<N>| passages.is_within(before);

@@ -49,7 +49,7 @@ impl<'a, const N: usize> SpeedRun<'a, N> {
         })
     }
 
-    /// Returns whether the run has come to a goal.
+    /// Returns whether the run has reached a goal.
     #[must_use]
     pub fn has_arrived(&self) -> bool {
         self.map.time_from(self.at) == 0

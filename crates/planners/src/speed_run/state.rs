@@ -91,7 +91,7 @@ impl Node {
         }
     }
 
-    /// Returns the same place, looking the other way.
+    /// Returns the same place with the opposite heading.
     pub(super) const fn reversed<const N: usize>(self) -> Self {
         match self.facing() {
             Facing::Straight(heading) => Self::straight(self.cell, opposite(heading)),

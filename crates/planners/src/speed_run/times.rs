@@ -144,7 +144,7 @@ impl SlalomTimes {
     }
 }
 
-/// Returns how long a straight of `length` millimetres takes, rounded up.
+/// Returns the duration of a straight of `length` millimetres, ms, rounded up.
 fn milliseconds(drive: SpeedProfile, speed: f64, length: f64) -> u64 {
     let SpeedProfile {
         acceleration_mm_s2: acceleration,
@@ -194,7 +194,7 @@ fn check(config: &SpeedRunConfig) -> Result<(), SpeedRunConfigError> {
 mod tests {
     use super::*;
 
-    /// Returns what `change` makes of the classic preset.
+    /// Returns whether the classic preset is accepted after `change`.
     fn outcome(change: impl FnOnce(&mut SpeedRunConfig)) -> Result<(), SpeedRunConfigError> {
         let mut config = SpeedRunConfig::classic();
         change(&mut config);

@@ -17,9 +17,9 @@ pub struct GngConfig {
     pub max_age: u32,
     /// λ: the network may grow at every λ-th input; at least 1.
     pub growth_period: u32,
-    /// α: what is left of the errors of the two units between which a unit is put; 0 to 1.
+    /// α: factor on the errors of the two units between which a unit is put; 0 to 1.
     pub split_factor: f64,
-    /// d: what is left of all errors after each input; above 0, at most 1.
+    /// d: factor on all errors after each input; above 0, at most 1.
     pub decay: f64,
     /// Maximum number of units; at least 2. `usize::MAX` for no bound.
     pub max_units: usize,
@@ -76,7 +76,7 @@ pub enum ErrorKind {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum GrowthGate {
-    /// Always, as long as there is room (Fritzke 1995).
+    /// Always while there is room (Fritzke 1995).
     #[default]
     Open,
     /// mean(E) > threshold (the likely reading of MSLST's "error threshold"). In equilibrium the

@@ -3,14 +3,14 @@
 use crate::QuantizerConfigError;
 use crate::error::within;
 
-/// A common factor of many sums. All decay by one multiplication instead of a sweep, since what is
-/// kept of a sum is the sum divided by the factor.
+/// A common factor of many sums. All decay by one multiplication instead of a sweep, since each sum
+/// is stored divided by the factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Decay {
     factor: f64,
 }
 
-/// Value below which the factor is made 1 again: long before numbers lose precision, and so seldom
+/// Value below which the factor is reset to 1: long before numbers lose precision, and so rarely
 /// that it costs nothing.
 const SMALLEST: f64 = 1.0 / (1_u64 << 63) as f64;
 
@@ -30,13 +30,13 @@ impl Decay {
         self.factor
     }
 
-    /// Returns what is to be kept for `value`.
+    /// Returns the number to keep for `value`.
     #[inline]
     pub(super) fn kept(self, value: f64) -> f64 {
         value / self.factor
     }
 
-    /// Returns what the number that was kept stands for.
+    /// Returns the value that a kept number stands for.
     #[inline]
     pub(super) fn value(self, kept: f64) -> f64 {
         kept * self.factor

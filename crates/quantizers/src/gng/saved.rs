@@ -10,8 +10,7 @@ use crate::{Network, NetworkSnapshot, Scalar, SnapshotError};
 const FORMAT: &str = "tolman-gng";
 const VERSION: u32 = 1;
 
-/// All there is to know of a [`Gng`]. To resume it and go on gives the same bits as never to have
-/// stopped.
+/// Complete state of a [`Gng`]. Resuming it gives the same bits as never having stopped.
 ///
 /// With the feature `serde`, `Gng` itself is serialized as this, and refuses to be made of what is
 /// invalid.
@@ -56,7 +55,7 @@ impl<S: Scalar> From<Gng<S>> for SavedGng<S> {
 impl<S: Scalar> TryFrom<SavedGng<S>> for Gng<S> {
     type Error = SnapshotError;
 
-    /// Resumes what was saved. Search and events are as in a new network.
+    /// Resumes a saved network. Search and events are as in a new network.
     fn try_from(saved: SavedGng<S>) -> Result<Self, SnapshotError> {
         check_header(&saved.format, saved.version, FORMAT, VERSION)?;
         let network = Network::from_snapshot(&saved.network)?;

@@ -8,8 +8,8 @@ use super::tree::MOST_FEATURES;
 pub enum Lanes {
     /// The number that every processor of the target has lanes for.
     Baseline,
-    /// The number that this processor has lanes for, found out at run time. Without the feature
-    /// `std` that is impossible, and it is the same as [`Lanes::Baseline`].
+    /// The number of lanes that this processor has, detected at run time. Without the feature `std`
+    /// that is impossible, and it is the same as [`Lanes::Baseline`].
     #[default]
     Widest,
 }
@@ -17,7 +17,7 @@ pub enum Lanes {
 /// Search for the nearest units. The results are the same bit for bit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum UnitSearch {
-    /// Whatever is fastest: the index for many units of few features, else the scan.
+    /// The fastest: the index for many units of few features, else the scan.
     #[default]
     Automatic,
     /// Every unit is compared.

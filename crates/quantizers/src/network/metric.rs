@@ -59,7 +59,7 @@ impl<S: Scalar> Metric<S> {
         self.weights.as_deref()
     }
 
-    /// Returns whether `input` can be learnt or asked for.
+    /// Checks that `input` can be learned or asked for.
     #[inline]
     pub(crate) fn check(&self, input: &[S]) -> Result<(), InputError> {
         InputError::check_size(self.dimension, input.len())?;
@@ -70,8 +70,8 @@ impl<S: Scalar> Metric<S> {
         }
     }
 
-    /// Returns whether a prototype can have come from valid inputs: it may miss the limit by
-    /// roundings.
+    /// Checks that a prototype can come from valid inputs: rounding may put it slightly beyond the
+    /// limit.
     pub(crate) fn check_prototype(&self, prototype: &[S]) -> Result<(), InputError> {
         let slack = S::from_f64(1.0 + 1e-4);
         let near = Self {
@@ -82,7 +82,7 @@ impl<S: Scalar> Metric<S> {
         near.check(prototype)
     }
 
-    /// Returns whether `input` can be asked for where `mask` is true.
+    /// Checks that `input` can be asked for where `mask` is true.
     pub(crate) fn check_masked(&self, input: &[S], mask: &[bool]) -> Result<(), InputError> {
         InputError::check_size(self.dimension, input.len())?;
         if mask.len() != self.dimension {

@@ -48,7 +48,7 @@ impl<S: Scalar> Prototypes<S> {
         &mut self.features[start..start + self.dimension]
     }
 
-    /// Makes room for one more, at infinity, and says where.
+    /// Makes room for one more vector, at infinity, and returns its slot.
     pub(crate) fn push(&mut self) -> usize {
         let slot = self.len;
         if slot.is_multiple_of(LANES) {
@@ -69,7 +69,7 @@ impl<S: Scalar> Prototypes<S> {
         self.block_mut(slot)[feature][slot % LANES] = value;
     }
 
-    /// Leaves a slot that is near to nothing.
+    /// Empties a slot: its vector becomes infinitely far.
     pub(crate) fn vacate(&mut self, slot: usize) {
         for row in self.block_mut(slot) {
             row[slot % LANES] = S::INFINITY;

@@ -72,11 +72,10 @@ impl<S: Scalar> Best<S> {
     }
 }
 
-/// One term of a squared distance. Everything that computes distances does it by these, feature
-/// after feature, so that all agree to the bit.
+/// One term of a squared distance. All distances are computed from these, feature after feature, so
+/// that all agree to the bit.
 pub(crate) trait Terms<S>: Copy {
-    /// Returns what feature `feature` adds if it differs by `difference`; none if it is not
-    /// compared.
+    /// Returns the term of `feature` if it differs by `difference`; 0 if it is not compared.
     fn square(self, feature: usize, difference: S) -> S;
     /// Returns whether the feature is compared at all.
     fn compares(self, feature: usize) -> bool;

@@ -14,7 +14,7 @@ pub struct NetworkSnapshot<S> {
     pub dimension: usize,
     /// The weights of the features in the squared distance, or `None` if all are 1.
     pub weights: Option<Vec<S>>,
-    /// The id that the next unit will get.
+    /// Id that the next unit will get.
     pub next_id: u32,
     /// All units, ascending by id.
     pub units: Vec<SnapshotUnit<S>>,

@@ -11,10 +11,10 @@ pub struct SoinnConfig {
     /// age_dead: age above which edges are removed, in inputs won by one of the edge's ends, at
     /// least 1.
     pub max_age: u32,
-    /// λ: at every λ-th input a unit may be put where the error is large, then noise is removed; at
-    /// least 1. A unit has to find a neighbour within less than λ inputs.
+    /// λ: number of inputs between two insertions and removals of noise, at least 1. A unit has to
+    /// find a neighbour within less than λ inputs.
     pub period: u32,
-    /// Whether units are put where the error is large.
+    /// Whether units are inserted where the error is large.
     pub insertion: ErrorInsertion,
     /// Units that count as noise.
     pub denoising: Denoising,
@@ -69,7 +69,7 @@ pub enum Denoising {
         /// c: 0 to 1; the nearer to 1, the noisier the data are.
         c: f64,
     },
-    /// None: every input is worth remembering, also if it comes once.
+    /// No denoising: every input is worth remembering, even if it comes only once.
     Off,
 }
 
@@ -125,7 +125,7 @@ impl SoinnConfig {
     /// Returns the values for inputs without noise that count even if they come only once, as in an
     /// [`AssociativeMemory`](crate::AssociativeMemory) of single lessons. Every input that differs
     /// from all units becomes a new unit. Nothing is removed as noise, and nothing is inserted
-    /// between learnt inputs. An input that comes again and again makes two units, then an edge.
+    /// between learnt inputs. A repeated input makes two units, then an edge.
     pub fn exact() -> Self {
         Self {
             insertion: ErrorInsertion::Off,

@@ -10,8 +10,7 @@ use crate::{Network, NetworkSnapshot, QuantizerConfigError, Scalar, SnapshotErro
 const FORMAT: &str = "tolman-soinn";
 const VERSION: u32 = 1;
 
-/// All there is to know of a [`Soinn`]. To resume it and go on gives the same bits as never to have
-/// stopped.
+/// Complete state of a [`Soinn`]. Resuming it gives the same bits as never having stopped.
 ///
 /// With the feature `serde`, `Soinn` itself is serialized as this, and refuses to be made of what
 /// is invalid.
@@ -49,7 +48,7 @@ impl<S: Scalar> From<Soinn<S>> for SavedSoinn<S> {
 impl<S: Scalar> TryFrom<SavedSoinn<S>> for Soinn<S> {
     type Error = SnapshotError;
 
-    /// Resumes what was saved. Search and events are as in a new network.
+    /// Resumes a saved network. Search and events are as in a new network.
     fn try_from(saved: SavedSoinn<S>) -> Result<Self, SnapshotError> {
         check_header(&saved.format, saved.version, FORMAT, VERSION)?;
         let mut soinn = Self::around(Network::from_snapshot(&saved.network)?, saved.config)?;
@@ -64,7 +63,7 @@ impl<S: Scalar> TryFrom<SavedSoinn<S>> for Soinn<S> {
 }
 
 impl Tally {
-    /// Returns whether a unit can remember this after `steps` inputs.
+    /// Checks that a unit can have this tally after `steps` inputs.
     fn check(&self, steps: u64) -> Result<(), QuantizerConfigError> {
         let wins = |wins| (f64::MIN_POSITIVE..1e280).contains(&wins);
         within("the error of a unit", self.error, SUM)?;

@@ -15,7 +15,7 @@ use crate::{QuantizerConfigError, Scalar};
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct SecondLayerConfig {
-    /// The layer itself; its threshold is computed, so what stands there does not count.
+    /// Parameters of the layer itself. Its threshold is computed, so the value here is not used.
     pub layer: SoinnConfig,
     /// Rule for the threshold from the first layer.
     pub threshold: SecondThreshold,

@@ -173,7 +173,7 @@ fn a_million_units() {
 }
 
 proptest! {
-    /// Any bits at all: refused, or learnt without harm.
+    /// Inputs of any bits are refused, or learned without harm.
     #[test]
     fn no_number_poisons_it(inputs in prop::collection::vec(any::<[f32; 2]>(), 1..200), decay in 0.5..=1.0) {
         let mut config = GngConfig::fritzke();

@@ -28,8 +28,8 @@ fn equilibrium(config: GngConfig, dimension: usize, seed: u64) -> (f64, f64) {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(8))]
 
-    /// MSE(N) = N · threshold · (1 − d): with the last unit the law holds, with one fewer it would
-    /// not have.
+    /// Checks MSE(N) = N · threshold · (1 − d): the law holds with the last unit, but not with one
+    /// fewer.
     #[test]
     fn mean_error_ends_growth_where_the_law_says(dimension in 2..4_usize, wanted in 12..50_u32, seed: u64) {
         // A threshold that asks for about `wanted` units of an evenly filled cube.

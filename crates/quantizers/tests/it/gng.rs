@@ -146,7 +146,7 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(20))]
 
-    /// The algorithm again, as literally as it can be written, held to the real one.
+    /// Compares with the algorithm written again, as literally as possible.
     #[test]
     fn does_what_fritzke_wrote(seed: u64, dimension in 1..4_usize) {
         let mut config = GngConfig::fritzke();

@@ -16,8 +16,8 @@ const UNITS: usize = 100;
 /// Makes a stream of some length from a seed.
 type Stream = fn(usize, u64) -> Vec<Vec<f64>>;
 
-/// Returns what a robot with 11 range beams sees that drives through two rooms, joined by a door,
-/// and turns when it meets a wall.
+/// Returns the readings of a robot with 11 range beams. It drives through two rooms, joined by a
+/// door, and turns when it meets a wall.
 fn rooms(len: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let is_free = |x: f64, y: f64| {
@@ -64,7 +64,7 @@ fn surface(len: usize, seed: u64) -> Vec<Vec<f64>> {
     (0..len).map(&mut step).collect()
 }
 
-/// Twenty places, one by one, none visited twice.
+/// Returns twenty places, one by one, none visited twice.
 fn places(len: usize, seed: u64) -> Vec<Vec<f64>> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let centres = super::streams::cube(FEATURES, 20, seed);
@@ -76,7 +76,7 @@ fn places(len: usize, seed: u64) -> Vec<Vec<f64>> {
     (0..len).map(&mut step).collect()
 }
 
-/// Once along a line that is bent into eleven dimensions.
+/// Returns points once along a line that is bent into eleven dimensions.
 fn sweep(len: usize, _: u64) -> Vec<Vec<f64>> {
     let feature = |step: usize, feature: usize| {
         (step as f64 / len as f64 * 2.0 * (feature as f64 + 1.0)).sin()

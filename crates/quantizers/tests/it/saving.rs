@@ -45,7 +45,7 @@ fn saved() -> SavedGng<f64> {
     gng.into()
 }
 
-/// What has to be refused, and is.
+/// Checks that every invalid saved network is refused.
 #[test]
 fn refuses_what_is_no_network() {
     let refused = |spoil: &dyn Fn(&mut SavedGng<f64>)| {

@@ -5,13 +5,13 @@ use tolman_robot::Ring;
 
 use crate::WallSegment;
 
-/// Number to a multiple of which the beams are padded, so that lanes need no remainder.
+/// Multiple to which the number of beams is padded, so that lanes need no remainder.
 pub(super) const LANES: usize = 4;
 
-/// The beams of a ring from one point of the world, and how far each has got: a depth buffer of one
+/// The beams of a ring from one point of the world, and their ranges so far: a depth buffer of one
 /// dimension.
 ///
-/// [`aim`](Self::aim) makes every beam as long as the ring's range; what then is met shortens it.
+/// [`aim`](Self::aim) gives every beam the ring's range; obstacles then shorten it.
 ///
 /// ```
 /// use tolman_geom::{Heading, Point, Pose};
@@ -61,7 +61,7 @@ impl Chunk {
 pub(super) struct Order {
     /// Bearing of beam 0 in the world, rad.
     first: f64,
-    /// Beams per radian; 0 for a single beam, which everything is tried on.
+    /// Number of beams per radian; 0 for a single beam, which is compared with everything.
     density: f64,
     /// Beams to a full circle, a whole number or not.
     circle: f64,
@@ -72,8 +72,8 @@ pub(super) struct Order {
 }
 
 impl Order {
-    /// Returns the place among the beams, in [0, circle), of a bearing in the world, less the
-    /// margin.
+    /// Returns the position of a bearing among the beams, in [0, circle), less the margin. The
+    /// bearing is in the world.
     #[inline(always)]
     pub(super) fn index(&self, bearing: f64) -> f64 {
         let index = (bearing - self.first) * self.density - self.margin;
@@ -143,7 +143,7 @@ impl Seen {
         }
     }
 
-    /// Returns the distance at which a beam meets it; infinity if it does not.
+    /// Returns the distance at which a beam meets the wall, m; infinity if it does not.
     ///
     /// The side of the beam on which an end lies is computed from that end alone. So two walls that
     /// share an end agree on it and leave no gap.
@@ -284,8 +284,8 @@ impl BeamSweep {
         }
     }
 
-    /// Lets beams meet a wall in line with the origin: those that run along it, and all if the
-    /// origin lies on it.
+    /// Shortens the beams for a wall in line with the origin: those that run along it, or all if
+    /// the origin lies on it.
     #[cold]
     pub(super) fn meet_edge_on(&mut self, wall: &WallSegment) {
         let origin = self.origin;

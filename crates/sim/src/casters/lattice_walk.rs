@@ -11,10 +11,10 @@ use crate::world::{BitRows, Lattice};
 /// Walks each ray from grid line to grid line in worlds made from mazes and occupancy grids.
 /// Source: Amanatides and Woo, *A fast voxel traversal algorithm for ray tracing* (1987).
 ///
-/// Short beams, which cross few lines, do not even walk: all crossings are computed at once, in
-/// lanes over beams. In both ways one comparison per pair of crossings decides which line comes
-/// first. That alone says which cell the ray is in. So a ray enters every cell through one of its
-/// edges, and no rounding lets it slip through the corner between two walls.
+/// For short beams, which cross few lines, all crossings are computed at once, in lanes over beams.
+/// Either way, one comparison per pair of crossings decides which line comes first, and thus which
+/// cell the ray is in. So a ray enters every cell through one of its edges, and no rounding lets it
+/// slip through the corner between two walls.
 ///
 /// O(lines crossed) per ray, whatever the size of the world.
 #[derive(Clone, Debug)]
@@ -30,12 +30,12 @@ pub struct LatticeWalk {
 /// Maximum number of lines of one axis that are crossed all at once.
 const MOST: usize = 3;
 
-/// Walls on the line of every edge of the grid. The low four bits are here and the next three
-/// cells, the high four here and the last three.
+/// Walls on the edges of one line of the grid. The low four bits are the present and the next three
+/// cells, the high four the present and the last three.
 #[derive(Clone, Debug)]
 struct Edges {
     cells: usize,
-    /// Line by line, with empty lines before the first and after the last.
+    /// Walls line by line, with empty lines before the first and after the last.
     walls: Vec<u8>,
 }
 
@@ -81,12 +81,12 @@ impl Edges {
 struct Line<const COUNT: usize> {
     first: u64,
     last: u64,
-    /// Cells that differ from the one before.
+    /// Bits of the cells that differ from the one before.
     changes: [u64; COUNT],
 }
 
 impl<const COUNT: usize> Line<COUNT> {
-    /// Table by the walls standing, a bit each.
+    /// Gaps for each pattern of walls, one bit per wall.
     const TABLE: [Self; 16] = {
         let mut table = [Self {
             first: 0,
@@ -224,7 +224,7 @@ fn reciprocal(component: f64) -> f64 {
     1.0 / if size > 1e-300 { size } else { 1e-300 }
 }
 
-/// Returns the index `by` steps on, or back; one past all others if it does not exist.
+/// Returns the index `by` steps on, or back; an index past all others if that does not exist.
 #[inline(always)]
 fn step(from: usize, back: bool, by: usize) -> usize {
     if back {

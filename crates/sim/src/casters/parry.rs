@@ -1,4 +1,4 @@
-//! The one place that speaks parry2d's language.
+//! The only module that uses parry2d's types.
 
 use parry2d_f64::math::{Pose as Isometry, Vec2};
 use parry2d_f64::query::{Ray, RayCast};

@@ -13,7 +13,7 @@ use crate::{Bounds, WallSegment};
 /// takes, on each level, the cells around it up to that distance. No wall is found twice, and long
 /// walls cost no more memory than short ones.
 ///
-/// Built in O(n log n); a look costs as much as it finds plus a few cells on each level.
+/// Building it takes O(n log n). A search costs as much as it finds plus a few cells on each level.
 #[derive(Clone, Debug)]
 pub struct WallIndex {
     levels: Vec<Level>,
@@ -25,7 +25,7 @@ pub struct WallIndex {
     kernels: Kernels,
 }
 
-/// A wall stripped to its line.
+/// A wall without its material.
 #[derive(Clone, Copy, Debug)]
 struct Trace {
     start: Point,
@@ -93,8 +93,8 @@ impl WallIndex {
         }
     }
 
-    /// Calls `visit` with all walls that come within `reach` of `centre`, and some that do not, in
-    /// slices.
+    /// Calls `visit` with slices of walls that contain all within `reach` of `centre`, m, and some
+    /// others.
     pub(crate) fn near<'a>(
         &'a self,
         centre: Point,
@@ -231,8 +231,8 @@ struct Walls {
 }
 
 impl Caster for WallIndex {
-    /// Looks along the ray piece by piece, so that a long one costs no more than what lies along
-    /// it. The pieces are counted, so that a ray from anywhere ends.
+    /// Follows the ray piece by piece, so that a long one costs no more than what lies along it.
+    /// The number of pieces is limited, so that a ray from anywhere ends.
     fn cast(&self, origin: Point, direction: Vector, max_range: f64) -> f64 {
         let Some(lowest) = self.levels.first() else {
             return max_range;
@@ -270,7 +270,7 @@ impl Caster for WallIndex {
 }
 
 impl WallIndex {
-    /// Returns a distance from `origin` within which there is no wall: that of the bounds.
+    /// Returns a distance from `origin` within which there is no wall, by the bounds of all walls.
     fn clearance(&self, origin: Point) -> f64 {
         (self.bounds.min - origin)
             .sup(&(origin - self.bounds.max))
@@ -338,7 +338,7 @@ impl Block {
         }
     }
 
-    /// Takes a wall if it comes within `range` of `origin`. The block must not be full.
+    /// Adds a wall if it comes within `range` of `origin`. The block must not be full.
     #[inline(always)]
     fn take_if_near(&mut self, wall: &Trace, place: usize, origin: Point, range: f64) {
         let (start, end) = (wall.start - origin, wall.end - origin);

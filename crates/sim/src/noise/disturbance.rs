@@ -52,7 +52,7 @@ pub trait Disturbance<V>: CloneDisturbance<V> + Debug + Send + Sync {
     /// Changes a reading, or takes it away with `None`. Called once for each reading, in the order
     /// of time.
     ///
-    /// `draws` begins again at every tick. What should outlast a tick belongs into `self`.
+    /// `draws` begins again at every tick. State that must outlast a tick belongs in `self`.
     fn disturb(&mut self, value: &mut Option<V>, draws: &mut Draws);
 }
 
@@ -75,11 +75,11 @@ impl<V> Clone for Box<dyn Disturbance<V>> {
     }
 }
 
-/// Disturbances of one value, the one nearest to the truth first.
+/// Disturbances of one value, in order; the first is nearest to the truth.
 pub type Disturbances<V> = Vec<Box<dyn Disturbance<V>>>;
 
-/// Noise drawn from any distribution of [`rand`] or of the crate `rand_distr`, for each number of a
-/// reading again.
+/// Noise drawn from any distribution of [`rand`] or of the crate `rand_distr`, separately for each
+/// number of a reading.
 ///
 /// The bits it draws may differ between platforms and between builds. `rand_distr` takes `exp` and
 /// `ln` from the standard library as soon as any crate of a program switches `num-traits/std` on,

@@ -5,7 +5,7 @@ use thiserror::Error;
 use super::{Gaussian, Values};
 use crate::Draws;
 
-/// Something that happens to a value each time it is read, as a configuration names it.
+/// A fault of a sensor or motor, as a configuration names it.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum Fault {
@@ -15,7 +15,7 @@ pub enum Fault {
     Bias {
         /// Factor of the value; 1 for none.
         scale: f64,
-        /// Offset added then, in the value's own unit.
+        /// Offset added after scaling, in the value's own unit.
         offset: f64,
     },
     /// An error of which only the bounds are known: `(1 + a) · value + b`, `a` uniform in ± `share`
@@ -35,7 +35,7 @@ pub enum Fault {
     /// An error beyond all bounds, now and then: the value times 1 ± `share`, drawn again after
     /// every `steps` readings.
     Lapse {
-        /// Probability that a draw is one, 0 to 1.
+        /// Probability that a draw is such an error, 0 to 1.
         probability: f64,
         /// The share gained or lost.
         share: f64,
@@ -57,23 +57,23 @@ pub enum Fault {
         /// Probability that a reading is missing, 0 to 1.
         probability: f64,
     },
-    /// Numbers that have nothing to do with the truth: uniform between `low` and `high`.
+    /// Numbers unrelated to the truth: uniform between `low` and `high`.
     Outliers {
-        /// Probability that a number is one, 0 to 1.
+        /// Probability that a number is an outlier, 0 to 1.
         probability: f64,
-        /// Least of them, in the value's own unit.
+        /// Least outlier, in the value's own unit.
         low: f64,
         /// The greatest, in the value's own unit.
         high: f64,
     },
-    /// A sensor that now and then gets stuck and repeats the reading it got stuck at.
+    /// A sensor that sometimes gets stuck and repeats its reading.
     Stuck {
         /// Probability that it gets stuck at a reading, 0 to 1.
         probability: f64,
         /// Number of readings it repeats before it comes free.
         steps: u32,
     },
-    /// Readings that come late; no reading comes before the first has arrived.
+    /// Readings that come late. Before the first has arrived, readings are missing.
     Delay {
         /// Delay, time steps.
         steps: u32,
@@ -221,7 +221,7 @@ pub(super) struct Past<V> {
     values: VecDeque<Option<V>>,
     /// Number of readings for which it still goes on.
     steps_left: u32,
-    /// Numbers drawn for that long.
+    /// Numbers drawn for that many readings.
     drawn: [f64; 2],
 }
 
@@ -246,7 +246,7 @@ impl<V: Values> Past<V> {
         self.drawn
     }
 
-    /// Repeats the reading that a sensor is stuck at, or lets it get stuck at this one for `steps`
+    /// Repeats the reading at which a sensor is stuck, or lets it get stuck at this one for `steps`
     /// readings.
     fn stick(&mut self, value: &mut Option<V>, gets_stuck: bool, steps: u32) {
         if self.steps_left > 0 {
@@ -292,6 +292,6 @@ pub struct FaultsError {
     pub field: &'static str,
     /// Number of the fault, from 0.
     pub index: usize,
-    /// The fault of its configuration.
+    /// Fault of the configuration.
     pub source: FaultError,
 }

@@ -2,7 +2,7 @@ use super::fault::Past;
 use super::{Disturbance, Disturbances, Fault, Values};
 use crate::{Chance, Channel};
 
-/// Faults of one value, one by one, each with its memory and its channel; then what comes from
+/// Faults of one value, in order, each with its memory and its channel; then the disturbances from
 /// outside.
 #[derive(Clone, Debug)]
 pub struct Faults<V> {
@@ -42,8 +42,8 @@ impl<V: Values> Faults<V> {
         &self.outside
     }
 
-    /// Applies all of them to `value`. A value that a disturbance leaves [broken](Values::is_sound)
-    /// is removed.
+    /// Applies all faults and disturbances to `value`. A value that a disturbance leaves
+    /// [broken](Values::is_sound) is removed.
     pub fn disturb(&mut self, value: &mut Option<V>, chance: &Chance) {
         for (index, (fault, past)) in (0..).zip(&mut self.each) {
             fault.disturb(value, past, &mut chance.draws(self.channel.nth(index)));

@@ -43,7 +43,7 @@ impl CameraPioneerConfig {
 pub struct CameraPioneerDisturbances {
     /// Errors of the camera's image, in shares of full light.
     pub image: Disturbances<ColumnImage>,
-    /// Errors of everything else.
+    /// Errors of all other values.
     pub pioneer: LaserPioneerDisturbances,
 }
 

@@ -22,7 +22,8 @@ use crate::{Chance, CommandError, Contact, Model, Motion, Surroundings};
 pub struct EpuckConfig {
     /// Response of the proximity sensors, with their noise.
     pub response: ResponseCurve,
-    /// Faults of each wheel's distance over the ground, separately; a drop-out does not roll.
+    /// Faults of each wheel's distance over the ground, separately. A wheel with a drop-out does
+    /// not roll.
     pub wheels: Vec<Fault>,
     /// Faults of the proximity values beyond the noise of the curve.
     #[serde(default)]
@@ -154,8 +155,8 @@ impl Model for Epuck {
         CommandError::check("right", command.right)
     }
 
-    /// Limits the speeds to what the wheels can do. The encoders tell what the wheels turned, the
-    /// ground what they rolled.
+    /// Limits the speeds to those that the wheels can reach. The encoders report the wheels' turns,
+    /// the motion their rolling over the ground.
     fn motion(&mut self, command: &WheelSpeeds, chance: &Chance) -> Motion {
         let seconds = self.config.step_us as f64 * 1e-6;
         let most = self.config.most_wheel_speed;
@@ -215,7 +216,7 @@ impl Recordable for Epuck {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum EpuckError {
-    /// A time step has no length.
+    /// A time step has length 0.
     #[error("`step_us` is 0; give the microseconds of a time step")]
     Step,
     /// The wheels can turn at no speed.

@@ -37,7 +37,7 @@ pub struct LaserPioneerConfig {
     pub ring: Ring,
     /// Turn made in one step by the command `turn = 1`, rad. The paper gives no unit.
     pub turn_per_step: f64,
-    /// Way covered in one step by the command `translate = 1`, m. The paper gives no unit.
+    /// Distance covered in one step by the command `translate = 1`, m. The paper gives no unit.
     pub translate_per_step: f64,
     /// Errors of the motors.
     pub motor_noise: MotorNoise,
@@ -45,8 +45,8 @@ pub struct LaserPioneerConfig {
     pub scan_noise: Gaussian,
     /// Noise of the compass, rad.
     pub compass_noise: Gaussian,
-    /// Encoder counts as a share of the way that a wheel rolled: a constant error. The wheels are
-    /// as far apart as the Pioneer 2-DX's.
+    /// Encoder counts as a share of the distance that a wheel rolled: a constant error. The wheels
+    /// are as far apart as the Pioneer 2-DX's.
     #[serde(default, skip_serializing_if = "WheelScale::is_exact")]
     pub wheel_scale: WheelScale,
     /// Noise of the rolled distance, m.
@@ -93,18 +93,18 @@ pub struct LaserPioneerFaults {
     pub odometry_distance: Vec<Fault>,
     /// Faults of the turn that the wheels report, rad. A drop-out drops the whole odometry.
     pub odometry_turn: Vec<Fault>,
-    /// Beams that always say the same, after all faults of the scan.
+    /// Beams that always report the same range, after all faults of the scan.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub stuck_beams: Vec<StuckBeam>,
 }
 
-/// A beam of a laser that says the same range whatever it meets.
+/// A beam of a laser that reports the same range whatever it meets.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StuckBeam {
-    /// Its number in the ring.
+    /// Number of the beam in the ring.
     pub beam: u32,
-    /// Its stuck reading, m: 0 up to the ring's range.
+    /// Reported range, m: 0 up to the ring's range.
     pub range: f64,
 }
 
@@ -382,10 +382,10 @@ pub enum RobotConfigError {
     Field {
         /// Name of the field.
         field: &'static str,
-        /// Its value.
+        /// Value that was given.
         value: f64,
     },
-    /// A stuck beam is not in the ring, or is stuck at a range it cannot read.
+    /// A stuck beam is not in the ring, or its range is not one that the ring can read.
     #[error(
         "`faults.stuck_beams`: beam {beam} stuck at {range} m; name a beam of the ring and a range within its own"
     )]
@@ -401,7 +401,7 @@ pub enum RobotConfigError {
     /// The laser cannot be built.
     #[error("`ring`: {0}")]
     Laser(#[from] LaserError),
-    /// The body cannot be one.
+    /// The body is invalid.
     #[error("`radius`: {0}")]
     Body(#[from] BodyError),
 }

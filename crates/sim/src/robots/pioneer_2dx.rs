@@ -25,13 +25,13 @@ use crate::{Chance, Channel, CommandError, Contact, Model, Motion, Surroundings}
 pub struct Pioneer2dxConfig {
     /// Turn made in one step by the command `turn = 1`, rad.
     pub turn_per_step: f64,
-    /// Way covered in one step by the command `translate = 1`, m.
+    /// Distance covered in one step by the command `translate = 1`, m.
     pub translate_per_step: f64,
     /// Errors of the motors.
     pub motor_noise: MotorNoise,
-    /// Encoder counts as a share of the way that a wheel rolled: a constant error.
+    /// Encoder counts as a share of the distance that a wheel rolled: a constant error.
     pub wheel_scale: WheelScale,
-    /// Noise of the way that each wheel counts in a step, m: slip.
+    /// Noise of the distance that each wheel counts in a step, m: slip.
     pub wheel_noise: Gaussian,
     /// Parameters of the sonars.
     pub sonar: SonarConfig,
@@ -46,7 +46,8 @@ pub struct Pioneer2dxConfig {
     pub step_us: u64,
 }
 
-/// Encoder counts of each wheel as a share of the way that it rolled: 1 for a calibrated robot.
+/// Encoder counts of each wheel as a share of the distance that it rolled: 1 for a calibrated
+/// robot.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WheelScale {
@@ -67,7 +68,8 @@ impl WheelScale {
         *self == Self::EXACT
     }
 
-    /// Returns the motion that wheels count, by the nominal track, whose robot makes `motion`.
+    /// Returns the motion by the encoders of a robot that makes `motion`, computed with the nominal
+    /// track.
     pub(super) fn counted(self, motion: Motion) -> Motion {
         if self.is_exact() {
             return motion;
@@ -98,9 +100,10 @@ pub struct Pioneer2dxFaults {
     pub motor_turn: Vec<Fault>,
     /// Faults of the distance the motors make, m; a drop-out makes none.
     pub motor_distance: Vec<Fault>,
-    /// Faults of the way that the left wheel counts, m; a drop-out takes the whole odometry.
+    /// Faults of the distance that the left wheel counts, m; a drop-out removes the whole odometry.
     pub left_wheel: Vec<Fault>,
-    /// Faults of the way that the right wheel counts, m; a drop-out takes the whole odometry.
+    /// Faults of the distance that the right wheel counts, m; a drop-out removes the whole
+    /// odometry.
     pub right_wheel: Vec<Fault>,
     /// Faults of the sonars' ranges, m.
     pub sonars: Vec<Fault>,
@@ -117,11 +120,11 @@ pub struct Pioneer2dxDisturbances {
     pub motor_turn: Disturbances<f64>,
     /// Disturbances of the distance the motors make, m; no error if missing.
     pub motor_distance: Disturbances<f64>,
-    /// Disturbances of the way that the left wheel counts, m; a missing reading takes the whole
-    /// odometry.
+    /// Disturbances of the distance that the left wheel counts, m; a missing reading removes the
+    /// whole odometry.
     pub left_wheel: Disturbances<f64>,
-    /// Disturbances of the way that the right wheel counts, m; a missing reading takes the whole
-    /// odometry.
+    /// Disturbances of the distance that the right wheel counts, m; a missing reading removes the
+    /// whole odometry.
     pub right_wheel: Disturbances<f64>,
     /// Disturbances of the sonars' ranges, m.
     pub sonars: Disturbances<[f64; SONARS]>,
@@ -148,8 +151,8 @@ impl Pioneer2dxConfig {
         }
     }
 
-    /// Returns the paper's robot, as noisy as it says without values: wheels that slip by 2 % a
-    /// step, noisy sonars, changing light.
+    /// Returns the paper's robot with its noise, for which the paper gives no values: wheels that
+    /// slip by 2 % per step, noisy sonars, changing light.
     #[must_use]
     pub fn paper() -> Self {
         Self {
@@ -165,7 +168,7 @@ impl Pioneer2dxConfig {
         }
     }
 
-    /// Returns the same robot with wheels that count wrongly by a constant.
+    /// Returns the same robot with wheels that have constant counting errors.
     #[must_use]
     pub fn with_wheel_scale(mut self, wheel_scale: WheelScale) -> Self {
         self.wheel_scale = wheel_scale;
@@ -263,8 +266,8 @@ impl Pioneer2dx {
         self
     }
 
-    /// Returns what the wheels say of a motion: each counts its way, and distance and turn follow
-    /// by the nominal track.
+    /// Returns the odometry of a motion. Each wheel counts its distance; distance and turn of the
+    /// robot follow by the nominal track.
     fn rolled(&mut self, motion: Motion, chance: &Chance) -> Option<Odometry> {
         let half_turn = 0.5 * motion.turn * TRACK;
         let scale = self.config.wheel_scale;
@@ -384,10 +387,10 @@ pub enum Pioneer2dxError {
     Field {
         /// Name of the field.
         field: &'static str,
-        /// Its value.
+        /// Value that was given.
         value: f64,
     },
-    /// A time step has no length.
+    /// A time step has length 0.
     #[error("`step_us` is 0; give at least 1 µs")]
     NoTime,
     /// A fault is invalid.

@@ -7,12 +7,12 @@ use tolman_robot::ColumnImage;
 use super::Sensor;
 use crate::{Chance, Motion, Ray, Surroundings};
 
-/// A camera in the middle of the robot that looks all round: the mean colour of what stands in each
-/// column of its image.
+/// A camera in the middle of the robot that looks all round: the mean colour of each column of its
+/// image.
 ///
 /// A column sees the colours of walls, shut doors and other robots; where nothing is in reach it is
 /// black. Light comes from everywhere, so that a colour is the same from far and near. No picture
-/// is taken in motion, as it would be blurred.
+/// is taken in motion, since it would be blurred.
 #[derive(Clone, Debug)]
 pub struct ColumnCamera {
     columns: u32,
@@ -83,13 +83,13 @@ impl Sensor for ColumnCamera {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum CameraError {
-    /// No columns, or too many.
+    /// The number of columns is 0 or too large.
     #[error("the camera has {columns} columns; give 1 to 100,000")]
     Columns {
         /// Number of columns.
         columns: u32,
     },
-    /// The camera sees nothing.
+    /// The camera's reach is not positive.
     #[error("the camera's reach is {reach} m; give a positive number of metres")]
     Reach {
         /// The offending reach, m.

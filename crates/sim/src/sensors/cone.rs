@@ -15,7 +15,7 @@ pub(super) struct Cone {
 pub(super) struct ConeEcho {
     /// Distance, m.
     pub(super) range: f64,
-    /// Angle between the way there and the wall's normal, rad, 0 … π/2.
+    /// Angle between the direction to the point and the wall's normal, rad, 0 … π/2.
     pub(super) incidence: f64,
 }
 
@@ -31,10 +31,10 @@ impl Cone {
         }
     }
 
-    /// Returns what is nearest of all `walls`, if anything is in the cone; exact up to rounding.
-    /// O(walls).
+    /// Returns the echo of the nearest point of all `walls` in the cone, exact up to rounding, or
+    /// `None`. O(walls).
     ///
-    /// Nothing can hide it: what stood before it would be nearer, and in the cone as well.
+    /// Nothing can hide it: anything before it would be nearer, and in the cone as well.
     pub(super) fn nearest(&self, walls: &[WallSegment]) -> Option<ConeEcho> {
         let parts = walls.iter().filter_map(|wall| self.part(wall));
         let nearest = parts.map(|(start, end)| (nearest_to_origin(start, end), end - start));
@@ -54,7 +54,7 @@ impl Cone {
     }
 }
 
-/// Returns what of a segment lies on the side of a line through the origin that `normal` points to.
+/// Returns the part of a segment on the side of a line through the origin to which `normal` points.
 fn cut((start, end): (Vector, Vector), normal: Vector) -> Option<(Vector, Vector)> {
     let (from_start, from_end) = (start.dot(&normal), end.dot(&normal));
     if from_start < 0.0 && from_end < 0.0 {
@@ -77,8 +77,8 @@ fn nearest_to_origin(start: Vector, end: Vector) -> Vector {
     start + along * (-start.dot(&along) / square).clamp(0.0, 1.0)
 }
 
-/// Returns the angle between the way to a point of a wall and the wall's normal, rad; 0 if it is
-/// undefined.
+/// Returns the angle between the direction to a point of a wall and the wall's normal, rad; 0 if it
+/// is undefined.
 fn incidence(point: Vector, along: Vector) -> f64 {
     let product = point.norm() * along.norm();
     if product <= 0.0 {
@@ -95,10 +95,10 @@ mod tests {
     use super::*;
 
     const HALF_WIDTH: f64 = 7.5 * core::f64::consts::PI / 180.0;
-    /// Between two of the oracle's points on a wall, m.
+    /// Distance between two of the oracle's points on a wall, m.
     const SPACING: f64 = 1e-3;
 
-    /// Points all along the walls, the nearest of those that the angle allows.
+    /// Returns the nearest of many points along the walls within the cone.
     fn brute_force(mount: Pose, walls: &[WallSegment]) -> f64 {
         let points = walls.iter().flat_map(|wall| {
             let along = wall.end - wall.start;
@@ -111,8 +111,8 @@ mod tests {
         heard.map(|way| way.norm()).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns whether the point reported as nearest is on a wall and in the cone, so that nothing
-    /// is heard that does not exist.
+    /// Returns whether the nearest point is on a wall and in the cone, so that no nonexistent echo
+    /// is heard.
     fn is_there(mount: Pose, walls: &[WallSegment], echo: ConeEcho) -> bool {
         let count = 4000;
         let bearings =
@@ -127,8 +127,8 @@ mod tests {
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(64))]
 
-        /// The reading is the oracle's to its spacing; a piece of wall shorter than that may slip
-        /// through the oracle alone.
+        /// The reading is the oracle's up to its spacing. The oracle alone may miss a piece of wall
+        /// shorter than that.
         #[test]
         fn the_reading_is_that_of_brute_force(
             ends in prop::collection::vec((-3.0..3.0, -3.0..3.0, -3.0..3.0, -3.0..3.0), 1..8),

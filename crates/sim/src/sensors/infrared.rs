@@ -62,7 +62,7 @@ impl ResponseCurve {
         Ok(curve)
     }
 
-    /// Returns the e-puck's, by Webots' table: 4095 at contact, 67 at 7 cm and beyond.
+    /// Returns the e-puck's curve by Webots' table: 4095 at contact, 67 at 7 cm and beyond.
     #[must_use]
     pub fn epuck() -> Self {
         Self {
@@ -83,7 +83,7 @@ impl ResponseCurve {
         curve
     }
 
-    /// Checks that it is a curve.
+    /// Checks that the points form a curve.
     ///
     /// # Errors
     /// If it has no points, their ranges do not grow, or a number is invalid.
@@ -111,14 +111,14 @@ impl ResponseCurve {
         Ok(())
     }
 
-    /// Returns the range beyond which nothing changes, m.
+    /// Returns the range beyond which the reading is constant, m.
     #[must_use]
     pub fn reach(&self) -> f64 {
         self.points.last().map_or(0.0, |point| point.range)
     }
 
-    /// Returns the reading at a range, m, and its relative standard deviation: the point of the
-    /// curve there.
+    /// Returns the point of the curve at a range, m: the reading and its relative standard
+    /// deviation.
     #[must_use]
     pub fn at(&self, range: f64) -> ResponsePoint {
         let above = self.points.partition_point(|point| point.range < range);
@@ -172,7 +172,7 @@ pub struct Infrared<const N: usize> {
 }
 
 impl<const N: usize> Infrared<N> {
-    /// Returns sensors that sit and look as `mounts` say, in the robot's frame.
+    /// Returns sensors with the poses `mounts` in the robot's frame.
     ///
     /// # Errors
     /// If the curve is invalid.

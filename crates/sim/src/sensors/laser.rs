@@ -69,19 +69,19 @@ impl Sensor for Laser {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum LaserError {
-    /// No beams, or too many.
+    /// The number of beams is 0 or too large.
     #[error("the laser has {beams} beams; give 1 to 1,000,000")]
     Beams {
         /// Number of beams.
         beams: u32,
     },
-    /// The laser sees nothing.
+    /// The laser's range is not positive.
     #[error("the laser's range is {max_range} m; give a positive number of metres")]
     MaxRange {
         /// The offending range, m.
         max_range: f64,
     },
-    /// The laser's beams do not run once round at most.
+    /// The laser's beams cover more than a full circle.
     #[error(
         "the laser's beams start at {first_bearing} rad and are {spacing} rad apart; give finite \
          numbers, counter-clockwise and within one circle"

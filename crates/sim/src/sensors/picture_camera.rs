@@ -38,13 +38,13 @@ pub struct PictureCameraConfig {
     pub levels: u32,
 }
 
-/// View of a camera where no wall is.
+/// Colours of a camera's view where no wall is.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Backdrop {
     /// Red, green and blue of the floor.
     pub floor: [u8; 3],
-    /// Red, green and blue of what lies above and behind all walls.
+    /// Red, green and blue above and behind all walls.
     pub ceiling: [u8; 3],
     /// Maximum brightness change by stains on walls and floor, as a share.
     pub stains: f64,
@@ -123,8 +123,8 @@ impl PictureCameraConfig {
     }
 }
 
-/// A colour camera that looks ahead: the floor, the walls on it as high as they are, and what
-/// stands behind low ones.
+/// A colour camera that looks ahead: the floor, the walls on it with their heights, and everything
+/// visible above low ones.
 ///
 /// Each column is one vertical plane: the walls along it, the nearest first, hide what lies behind
 /// them from their base to their height. No picture is taken in motion, as it would be blurred.
@@ -155,13 +155,13 @@ impl PictureCamera {
         })
     }
 
-    /// Returns a black picture of its size.
+    /// Returns a black picture of the camera's size.
     fn blank(&self) -> Picture {
         let config = &self.config;
         Picture::black(config.width, config.height, config.camera)
     }
 
-    /// Paints the canvas row by row and returns how much of it glows, 0 … 1.
+    /// Paints the canvas row by row and returns the share of it that glows, 0 … 1.
     fn paint(&mut self, around: &Surroundings<'_>, blank: &Picture, shine: &Shine) -> f64 {
         let config = &self.config;
         let world_from_robot = Isometry2::from(around.truth.pose);
@@ -184,7 +184,7 @@ impl PictureCamera {
         glow / blank.pixels.len() as f64
     }
 
-    /// Makes pixels of the canvas: with glare, noise and as many levels as there are.
+    /// Converts the canvas to pixels, with glare, noise and the configured number of levels.
     fn develop(&self, veil: f64, picture: &mut Picture, draws: &mut Draws) {
         let step = 255.0 / f64::from(self.config.levels - 1);
         for (pixel, colour) in picture.pixels.iter_mut().zip(&self.canvas) {

@@ -28,33 +28,33 @@ pub struct SonarConfig {
     pub cross_talk: CrossTalk,
 }
 
-/// A wall hit at an angle reflects the sound elsewhere: the probability that no echo comes back.
-/// The probability grows in proportion from 0 at `from` to `probability` at `to`, and stays there.
+/// Echoes lost at walls that are hit at an angle. The probability that no echo comes back grows
+/// linearly from 0 at `from` to `probability` at `to`, and stays there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Misses {
-    /// Angle of incidence below which none is missed, rad; 0 is straight at the wall.
+    /// Angle of incidence below which no echo is missed, rad; 0 is head-on.
     pub from: f64,
-    /// Angle of incidence from which on no more are missed, rad.
+    /// Angle of incidence above which the probability is constant, rad.
     pub to: f64,
-    /// Probability that an echo is missed there, 0 to 1.
+    /// Probability that an echo is missed at that angle, 0 to 1.
     pub probability: f64,
 }
 
-/// A sonar that takes the echo of another one for its own, if that comes sooner.
+/// Cross-talk: a sonar reads another one's echo if that comes sooner.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct CrossTalk {
-    /// Probability of that for each reading, 0 to 1.
+    /// Probability of cross-talk for each reading, 0 to 1.
     pub probability: f64,
-    /// Number of groups of sonars that fire in turn: those whose numbers differ by a multiple of it
-    /// fire at once. With 0 each sonar fires alone.
+    /// Number of groups of sonars that fire in turn. Sonars whose numbers differ by a multiple of
+    /// it fire at once. With 0 each sonar fires alone.
     pub slots: u32,
 }
 
 impl SonarConfig {
     /// Returns the Pioneer 2-DX's cones of 15° from 0.1 to 5 m, which hear the nearest thing in
-    /// them to the last digit.
+    /// them exactly.
     #[must_use]
     pub const fn noiseless() -> Self {
         Self {
@@ -146,7 +146,7 @@ pub struct Sonars<const N: usize> {
 }
 
 impl<const N: usize> Sonars<N> {
-    /// Returns sonars that sit and look as `mounts` say, in the robot's frame.
+    /// Returns sonars with the poses `mounts` in the robot's frame.
     ///
     /// # Errors
     /// If a number of the configuration is invalid.
@@ -159,7 +159,7 @@ impl<const N: usize> Sonars<N> {
         })
     }
 
-    /// Returns what each would hear if nothing went wrong.
+    /// Returns the echo that each sonar would hear without faults, or `None` if it hears nothing.
     fn echoes(&mut self, around: &Surroundings<'_>) -> [Option<ConeEcho>; N] {
         let here = around.truth.pose;
         let spread = self.mounts.map(|mount| mount.position.coords.norm());
@@ -213,7 +213,7 @@ impl Misses {
 }
 
 impl CrossTalk {
-    /// Returns what each sonar takes for its own echo.
+    /// Returns the range that each sonar reports, which may be another sonar's echo.
     fn taken<const N: usize>(
         &self,
         heard: &[Option<f64>; N],

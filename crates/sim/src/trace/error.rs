@@ -41,24 +41,24 @@ pub enum ReplayError {
     /// There is no first line.
     #[error("the trace is empty; record one")]
     Empty,
-    /// The trace is of another format.
-    #[error("line 1: the format is `{found}`; expected `tolman-trace`")]
+    /// The trace has another format.
+    #[error("line 1: the format is `{found}`; expected `tolman-trace`; give a recorded trace")]
     Format {
         /// The format found.
         found: String,
     },
-    /// The trace is of a version this program does not know.
-    #[error("line 1: the version is {found}; this program reads version 1")]
+    /// The trace has a version that this program does not know.
+    #[error("line 1: the version is {found}; this program reads version 1; record the trace again")]
     Version {
         /// The version found.
         found: u32,
     },
-    /// A line is broken: cut short, or changed by hand.
+    /// A line is incomplete or was changed by hand.
     #[error("line {line}, column {column}: {what}; record the trace again")]
     Line {
         /// Number of the line, from 1.
         line: usize,
-        /// Position in the line, from 1; 0 if it has none.
+        /// Column of the line, from 1; 0 if there is none.
         column: usize,
         /// The fault, in words.
         what: String,
@@ -66,7 +66,7 @@ pub enum ReplayError {
     /// The world cannot be built again.
     #[error("line 1: {0}")]
     World(#[from] WorldFileError),
-    /// A robot cannot be built or placed again, or a command not be given again.
+    /// A robot cannot be built or placed again, or a command is refused.
     #[error("line {line}: {source}")]
     Refused {
         /// Number of the line, from 1.
@@ -74,8 +74,8 @@ pub enum ReplayError {
         /// The underlying error.
         source: Box<dyn core::error::Error + Send + Sync>,
     },
-    /// A robot was disturbed from outside its configuration, and the one built for the replay is
-    /// disturbed otherwise.
+    /// A robot had disturbances beyond its configuration, and the robot built for the replay has
+    /// others.
     #[error(
         "line 1: robot {robot} ran with disturbances {recorded:?}, the robot built for the replay has {built:?}; \
          a trace holds no code, so build the same robot and give it to `replay_with`"
@@ -88,9 +88,9 @@ pub enum ReplayError {
         /// Disturbances of the robot that was built.
         built: Vec<String>,
     },
-    /// The lines of a tick are not one per robot in order.
+    /// The lines of a tick are not one per robot, in order.
     #[error(
-        "line {line}: expected robot {robot} at tick {tick}; lines are missing or out of order"
+        "line {line}: expected robot {robot} at tick {tick}; lines are missing or out of order; record the trace again"
     )]
     Order {
         /// Number of the line, from 1.
@@ -100,7 +100,7 @@ pub enum ReplayError {
         /// The tick expected.
         tick: u64,
     },
-    /// The simulation does something else than was recorded.
+    /// The simulation differs from the recording.
     #[error(
         "line {line}: at tick {tick} robot {robot} differs:\n  recorded {recorded}\n  replayed {replayed}"
     )]
@@ -113,7 +113,7 @@ pub enum ReplayError {
         robot: u32,
         /// The line as it was recorded.
         recorded: String,
-        /// The line as it would be now.
+        /// Line that the simulation gives now.
         replayed: String,
     },
 }

@@ -1,4 +1,4 @@
-//! The lines of a trace as they stand in the file.
+//! The lines of a trace as they are written in the file.
 
 use serde::{Deserialize, Serialize};
 use tolman_geom::Pose;
@@ -34,7 +34,7 @@ pub(super) struct Start<M: Recordable> {
     pub(super) disturbances: Vec<String>,
 }
 
-/// Any line of a trace but the first.
+/// Any line of a trace except the first.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case", bound = "")]
 pub enum TraceLine<M: Recordable> {
@@ -42,14 +42,14 @@ pub enum TraceLine<M: Recordable> {
     Step(StepRecord<M>),
     /// A robot was lifted and set down after the steps so far.
     Place {
-        /// The robot.
+        /// Id of the robot.
         robot: RobotId,
         /// Its new pose.
         pose: Pose,
     },
     /// A door was moved after the steps so far.
     Door {
-        /// Its name.
+        /// Name of the door.
         name: String,
         /// Its new state.
         state: DoorState,
@@ -60,13 +60,13 @@ pub enum TraceLine<M: Recordable> {
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, bound = "")]
 pub struct StepRecord<M: Recordable> {
-    /// Number of steps since the run began, this one among them.
+    /// Number of steps since the run began, including this one.
     pub tick: u64,
     /// Microseconds since the run began.
     pub time_us: u64,
-    /// The robot.
+    /// Id of the robot.
     pub robot: RobotId,
-    /// Its command.
+    /// Command of the robot in this step.
     pub command: M::Command,
     /// Its pose afterwards.
     pub pose: Pose,

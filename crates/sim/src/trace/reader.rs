@@ -11,8 +11,8 @@ use super::{Recordable, ReplayError, TraceLine};
 use crate::World;
 use crate::world::Head;
 
-/// Reads a trace line by line, without simulating anything: what [`replay`](super::replay)
-/// compares, and what shows a run without repeating it.
+/// Reads a trace line by line, without simulating anything. It gives the lines that
+/// [`replay`](super::replay) compares, for showing a run without repeating it.
 ///
 /// The lines of a tick must be one per robot in order. Memory: one line.
 ///
@@ -46,7 +46,7 @@ pub struct Reader<M: Recordable, R> {
     line: usize,
     world: World,
     header: Header<M>,
-    /// The tick under way, and how many of its lines were read.
+    /// Tick in progress, and the number of its lines read so far.
     tick: u64,
     read: usize,
 }
@@ -55,7 +55,7 @@ impl<M: Recordable, R: BufRead> Reader<M, R> {
     /// Reads the first line.
     ///
     /// # Errors
-    /// If it is not that of a trace of such robots.
+    /// If it is not the first line of a trace of such robots.
     pub fn open(trace: R) -> Result<Self, ReplayError> {
         let mut lines = trace.lines();
         let first = lines.next().ok_or(ReplayError::Empty)??;
@@ -143,7 +143,7 @@ impl<M: Recordable, R: BufRead> Reader<M, R> {
 }
 
 impl<M: Recordable, R: BufRead> Iterator for Reader<M, R> {
-    /// The number of the line, from 1, and what it says.
+    /// Number of a line, from 1, with its contents.
     type Item = Result<(usize, TraceLine<M>), ReplayError>;
 
     fn next(&mut self) -> Option<Self::Item> {

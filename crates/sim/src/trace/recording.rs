@@ -14,12 +14,11 @@ use crate::{DoorState, RobotId, Simulation, World};
 pub enum Detail {
     /// Commands, poses and bumps.
     Poses,
-    /// The robots' readings as well.
+    /// Also the robots' readings.
     Sensing,
 }
 
-/// A simulation that is written down as it runs. For one robot alone it is a
-/// [`Robot`](tolman_robot::Robot).
+/// A simulation that is recorded as it runs. With one robot it is a [`Robot`](tolman_robot::Robot).
 #[derive(Debug)]
 pub struct Recording<M: Recordable, W: Write> {
     simulation: Simulation<M>,
@@ -28,7 +27,7 @@ pub struct Recording<M: Recordable, W: Write> {
 }
 
 impl<M: Recordable, W: Write> Recording<M, W> {
-    /// Puts `robots` into `world` and writes the first line. Give a buffered writer.
+    /// Puts `robots` into `world` and writes the first line. Pass a buffered writer.
     ///
     /// # Errors
     /// If a robot cannot stand where it is put, no robot is given, or the line cannot be written.
@@ -80,7 +79,8 @@ impl<M: Recordable, W: Write> Recording<M, W> {
     /// Lets one time step pass, as [`Simulation::step`] does, and writes it down.
     ///
     /// # Errors
-    /// If the step is not made, or cannot be written; then the run goes on, the trace does not.
+    /// If the step is not made, or cannot be written. In the latter case the run can continue, but
+    /// the trace cannot.
     pub fn step(&mut self, commands: &[M::Command]) -> Result<(), RecordError> {
         self.simulation.step(commands)?;
         for (robot, command) in self.simulation.robots().zip(commands) {
@@ -90,7 +90,7 @@ impl<M: Recordable, W: Write> Recording<M, W> {
         Ok(())
     }
 
-    /// Returns what is written of one robot's step.
+    /// Returns the record of one robot's step.
     pub(super) fn line(&self, robot: RobotId, command: &M::Command) -> StepRecord<M> {
         let truth = self.simulation.truth(robot);
         let sensing = match self.detail {

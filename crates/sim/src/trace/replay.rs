@@ -52,7 +52,7 @@ pub fn replay_with<M: Recordable, E: core::error::Error + Send + Sync + 'static>
     recording.finish().map_err(|source| refused(1, source))
 }
 
-/// Returns the robots of a trace where it begins.
+/// Returns the robots of a trace at its beginning.
 fn start<M: Recordable, R: BufRead, E: core::error::Error + Send + Sync + 'static>(
     reader: &Reader<M, R>,
     mut build: impl FnMut(RobotId, M::Config) -> Result<M, E>,

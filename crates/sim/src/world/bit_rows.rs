@@ -17,17 +17,17 @@ impl BitRows {
         }
     }
 
-    /// Returns how many rows there are.
+    /// Returns the number of rows.
     pub(crate) fn rows(&self) -> usize {
         self.rows
     }
 
-    /// Returns how many places each has.
+    /// Returns the number of bits in each row.
     pub(crate) fn length(&self) -> usize {
         self.length
     }
 
-    /// Returns whether there are `rows` of `length`, and a word for all of them.
+    /// Returns whether there are `rows` rows of `length` bits, and enough words for them.
     pub(super) fn has_shape(&self, rows: usize, length: usize) -> bool {
         (self.rows, self.length) == (rows, length)
             && rows
@@ -46,7 +46,7 @@ impl BitRows {
         }
     }
 
-    /// Returns the bit of a place; clear outside.
+    /// Returns the bit of a place; `false` outside.
     pub(crate) fn get(&self, row: usize, place: usize) -> bool {
         let bit = row.saturating_mul(self.length).saturating_add(place);
         row < self.rows && place < self.length && self.words[bit / 64] >> (bit % 64) & 1 == 1

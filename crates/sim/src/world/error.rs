@@ -12,7 +12,7 @@ pub enum WorldError {
         /// The offending width, m.
         corridor_width: f64,
     },
-    /// The walls are thinner than nothing.
+    /// The walls' thickness is negative.
     #[error("the wall thickness is {wall_thickness} m; give 0 or more metres")]
     WallThickness {
         /// The offending thickness, m.
@@ -21,7 +21,7 @@ pub enum WorldError {
     /// Nothing stands.
     #[error("the world has no walls; give at least one")]
     NoWalls,
-    /// A wall cannot be one.
+    /// A wall is invalid.
     #[error(
         "wall {index} from ({}, {}) to ({}, {}) m {what}; correct or remove it",
         wall.start.x, wall.start.y, wall.end.x, wall.end.y
@@ -29,12 +29,12 @@ pub enum WorldError {
     Wall {
         /// Number of the wall, from 0.
         index: usize,
-        /// The wall.
+        /// Wall that is invalid.
         wall: WallSegment,
         /// The fault, in words.
         what: &'static str,
     },
-    /// A door cannot be one.
+    /// A door is invalid.
     #[error("door `{name}` {what}; correct or remove it")]
     Door {
         /// Name of the door.
@@ -45,7 +45,7 @@ pub enum WorldError {
     /// Two doors have one name.
     #[error("there are two doors named `{name}`; rename one")]
     DoorTwice {
-        /// The name.
+        /// Name that was given.
         name: String,
     },
     /// A door's schedule goes back in time.
@@ -53,7 +53,7 @@ pub enum WorldError {
     DoorSchedule {
         /// Name of the door.
         name: String,
-        /// The first event that is not later than the one before it.
+        /// Time of the first event that is not later than the one before it, µs.
         time_us: u64,
     },
     /// A zone has an area without extent.
@@ -61,16 +61,16 @@ pub enum WorldError {
     Zone {
         /// Name of the zone.
         name: String,
-        /// Number of its area, from 0.
+        /// Index of the area, from 0.
         index: usize,
     },
     /// Two zones have one name.
     #[error("there are two zones named `{name}`; rename one or give one zone both areas")]
     ZoneTwice {
-        /// The name.
+        /// Name that was given.
         name: String,
     },
-    /// An occupancy grid does not hold what it says.
+    /// The size and the cells of an occupancy grid disagree.
     #[error(
         "the occupancy grid is {width} × {height} cells of {resolution} m with {bits} values; give a \
          positive size and resolution and one value per cell"

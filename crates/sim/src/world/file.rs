@@ -33,7 +33,7 @@ pub struct Polyline {
     /// Whether a last wall leads back to the first point.
     #[serde(default)]
     pub closed: bool,
-    /// Material of all these walls.
+    /// Material of all walls of this entry.
     #[serde(default)]
     pub material: Material,
 }
@@ -114,8 +114,8 @@ impl World {
         Self::from_file(serde_json::from_str(text)?)
     }
 
-    /// Returns this world as a world file, on one line. Doors are as at the beginning of a run;
-    /// another caster than the built-in one is not written.
+    /// Returns this world as a world file, on one line. Doors have their initial states. A caster
+    /// other than the built-in one is not written.
     ///
     /// # Errors
     /// None for a world that was built by this crate.
@@ -165,19 +165,21 @@ pub enum WorldFileError {
     /// The file is not JSON, or not what a world file holds; the message names line and column.
     #[error("not a world file: {0}")]
     Json(#[from] serde_json::Error),
-    /// The file is of another format.
-    #[error("the format is `{found}`; expected `{FORMAT}`")]
+    /// The file has another format.
+    #[error("the format is `{found}`, expected `{FORMAT}`; give a world file")]
     Format {
         /// Format that it names.
         found: String,
     },
-    /// The file is of a version this program does not know.
-    #[error("the version is {found}; this program reads version {VERSION}")]
+    /// The file has a version that this program does not know.
+    #[error(
+        "the version is {found}, but this program reads version {VERSION}; write the world again"
+    )]
     Version {
         /// Version that it names.
         found: u32,
     },
-    /// The parts of its grid do not fit each other.
+    /// The parts of its grid contradict each other.
     #[error("the sizes within `lattice` or `cells` contradict each other; write the file again")]
     Lattice,
     /// The file describes no world.

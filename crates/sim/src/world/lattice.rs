@@ -18,7 +18,8 @@ pub struct Occupancy {
     pub occupied: Vec<bool>,
 }
 
-/// A rectilinear grid whose walls lie on its lines: what mazes and occupancy grids are made into.
+/// A rectilinear grid whose walls lie on its lines: the form in which mazes and occupancy grids are
+/// stored.
 ///
 /// A maze of thin walls has a column per column of cells. With thick walls every wall gets a column
 /// or row of its own, and walls proper are the edges between solid and free cells.
@@ -31,7 +32,7 @@ pub(crate) struct Lattice {
     pub(crate) vertical: BitRows,
     /// The walls on the lines across y, cell by cell eastward.
     pub(crate) horizontal: BitRows,
-    /// The cells that are wall through and through, row by row.
+    /// Cells that are solid wall, row by row.
     solid: BitRows,
 }
 
@@ -82,7 +83,7 @@ impl Axis {
         distance.max(0.0)
     }
 
-    /// Returns the cell that holds `value`, if one does.
+    /// Returns the cell that holds `value`, or `None` outside.
     fn cell(&self, value: f64) -> Option<usize> {
         if self.thickness > 0.0 {
             let from_first = value - self.origin + 0.5 * self.thickness;
@@ -191,7 +192,7 @@ impl Lattice {
         ))
     }
 
-    /// Returns walls wherever solid meets free; beyond the edge everything is solid.
+    /// Returns walls between solid and free cells; everything beyond the edge is solid.
     fn round_solid(columns: Axis, rows: Axis, solid: BitRows) -> Self {
         let (width, height) = (columns.cells, rows.cells);
         let is_solid = |x: Option<usize>, y: Option<usize>| match (x, y) {
@@ -209,7 +210,7 @@ impl Lattice {
         }
     }
 
-    /// Returns whether the parts of a lattice that was read fit each other.
+    /// Returns whether the parts of a lattice that was read agree with each other.
     pub(super) fn is_sound(&self) -> bool {
         let (columns, rows) = (&self.columns, &self.rows);
         let axis = |axis: &Axis| {
@@ -236,12 +237,12 @@ impl Lattice {
         }
     }
 
-    /// Returns the cell that holds `point`, if one does: column and row.
+    /// Returns the column and row of the cell that holds `point`, or `None` outside.
     pub(crate) fn cell(&self, point: Point) -> Option<(usize, usize)> {
         Some((self.columns.cell(point.x)?, self.rows.cell(point.y)?))
     }
 
-    /// Returns how many lines of one axis a ray of this length crosses at most.
+    /// Returns the maximum number of lines of one axis that a ray of length `range`, m, crosses.
     pub(crate) fn lines_within(&self, range: f64) -> usize {
         let Axis {
             pitch, thickness, ..
@@ -254,7 +255,7 @@ impl Lattice {
         self.cell(point).is_some_and(|(x, y)| !self.solid.get(y, x))
     }
 
-    /// Returns the walls, those in a row joined.
+    /// Returns the walls, with adjacent ones in a row joined.
     pub(super) fn walls(&self, material: Material) -> Vec<WallSegment> {
         let corner = |x, y| Point::new(self.columns.line(x), self.rows.line(y));
         let wall = |start, end| WallSegment {
@@ -272,8 +273,8 @@ impl Lattice {
     }
 }
 
-/// Returns the walls on the lines before and after `rows` rows of cells: where one side is solid
-/// and the other is not.
+/// Returns the walls on the lines before and after `rows` rows of cells, between solid and free
+/// cells.
 fn edges(rows: usize, cells: usize, is_solid: impl Fn(Option<usize>, usize) -> bool) -> BitRows {
     let mut walls = BitRows::new(rows + 1, cells);
     for line in 0..=rows {

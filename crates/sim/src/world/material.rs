@@ -2,7 +2,7 @@
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Material {
-    /// Share of infrared light it throws back, 0 … 1.
+    /// Share of infrared light that it reflects, 0 … 1.
     pub reflectance: f64,
     /// Red, green and blue.
     pub colour: [u8; 3],
@@ -14,7 +14,7 @@ pub struct Material {
     /// [`ROOM_HEIGHT`](Self::ROOM_HEIGHT).
     #[serde(skip_serializing_if = "is_as_high_as_a_room")]
     pub height: f64,
-    /// Share of its colour that is light of its own, 0 … 1: a window. Files leave out the 0 of most
+    /// Share of its colour that glows by itself, 0 … 1: a window. Files leave out the 0 of most
     /// walls.
     #[serde(skip_serializing_if = "is_nothing")]
     pub glow: f64,
@@ -43,7 +43,7 @@ impl Material {
         }
     }
 
-    /// Returns the same material with light of its own, 0 … 1.
+    /// Returns the same material with a glowing share of its colour, 0 … 1.
     #[must_use]
     pub const fn glowing(self, glow: f64) -> Self {
         Self { glow, ..self }
@@ -51,7 +51,7 @@ impl Material {
 }
 
 impl Default for Material {
-    /// Returns a white surface that mirrors nothing: the reference surface of data sheets.
+    /// Returns a white matt surface: the reference surface of data sheets.
     fn default() -> Self {
         Self {
             reflectance: 1.0,
@@ -76,7 +76,7 @@ fn is_as_high_as_a_room(height: &f64) -> bool {
 mod tests {
     use super::*;
 
-    /// Files from before walls had heights stay as they are, and new ones come back.
+    /// Files from before walls had heights stay the same, and new ones can be read back.
     #[test]
     fn what_is_as_ever_is_not_written() {
         let white = Material::default();

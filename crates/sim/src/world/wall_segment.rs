@@ -3,7 +3,7 @@ use tolman_geom::{Point, Vector};
 use super::Material;
 use crate::casters::Seen;
 
-/// A straight wall without thickness: a closed segment, its ends part of it.
+/// A straight wall without thickness: a closed segment, which contains its ends.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WallSegment {
@@ -76,7 +76,7 @@ impl WallSegment {
         f64::INFINITY
     }
 
-    /// Returns what is wrong with this wall, if anything is.
+    /// Checks that the wall is valid. The error is a predicate, such as "has no length".
     pub(super) fn check(&self) -> Result<(), &'static str> {
         let numbers = [
             self.start.x,

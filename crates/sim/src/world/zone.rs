@@ -3,7 +3,7 @@ use tolman_maze::Cell;
 
 use super::{Bounds, WorldError};
 
-/// A named part of the floor: a destination, a start, a landmark's place.
+/// A named part of the floor, such as a destination, a start or the place of a landmark.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Zone {
@@ -38,7 +38,7 @@ impl Area {
 }
 
 impl Zone {
-    /// Returns the zone that `areas` make up together.
+    /// Returns the zone that consists of `areas`.
     #[must_use]
     pub fn new(name: impl Into<String>, areas: Vec<Area>) -> Self {
         Self {

@@ -73,7 +73,7 @@ fn blind() -> impl Strategy<Value = Blind> {
         .prop_map(|(body, contact)| Blind { body, contact })
 }
 
-/// Short and very long steps, straight, turning or both.
+/// Returns short and very long steps, straight, turning or both.
 fn motion() -> impl Strategy<Value = Motion> {
     let distance = prop_oneof![Just(0.0), -0.3..0.3, -4.0..4.0];
     let turn = prop_oneof![Just(0.0), -0.5..0.5, -6.0..6.0];

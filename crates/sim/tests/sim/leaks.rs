@@ -162,7 +162,7 @@ fn no_ray_leaks() {
     fuzz(1_000_000, 1);
 }
 
-/// Some minutes; `cargo xtask bench` runs it.
+/// Takes some minutes; `cargo xtask bench` runs it.
 #[test]
 #[ignore = "casts a thousand million rays"]
 fn no_ray_of_a_thousand_million_leaks() {

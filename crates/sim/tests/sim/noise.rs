@@ -9,7 +9,7 @@ use tolman_sim::robots::{
 };
 use tolman_sim::{Chance, Channel, CorridorSize, Simulation, Solo, Truth, World};
 
-/// Returns what becomes of 1, 2, 3 … in successive ticks.
+/// Returns the values 1, 2, 3 … of successive ticks after the fault.
 fn series(fault: Fault, count: u32) -> Vec<Option<f64>> {
     fault.check().unwrap();
     let mut faults = Faults::new("series", [fault]);
@@ -109,7 +109,7 @@ fn each_fault_does_what_it_says() {
     );
 }
 
-/// Pinned: a change of these changes every result that was ever computed with a seed.
+/// Pins the draws: a change of them would change every result ever computed with a seed.
 #[test]
 fn the_same_seed_draws_these_numbers() {
     let mut draws = Chance::of_run(42)

@@ -21,7 +21,7 @@ fn wall(start: (f64, f64), end: (f64, f64), material: Material) -> WallSegment {
     }
 }
 
-/// White boarding 2 m to every side; in the north it is blue.
+/// Returns a room with white boarding 2 m to every side; in the north it is blue.
 fn room() -> World {
     let low = |colour| Material::painted(colour).standing(0.0, 0.4);
     World::from_segments(vec![
@@ -46,7 +46,7 @@ fn facing(heading: Heading) -> Pose {
     Pose::new(Point::origin(), heading)
 }
 
-/// Ahead and half to the left: the blue wall is on the left of what it sees.
+/// Facing a corner, the robot sees the blue wall on its left in the left half of the picture.
 #[test]
 fn what_is_on_the_robots_left_is_on_the_left_of_the_picture() {
     let picture = picture(room(), facing(Heading::from_degrees(45.0)));
@@ -73,7 +73,7 @@ fn the_foot_and_the_top_of_a_wall_are_at_their_rows() {
     }
 }
 
-/// A window above a low wall: seen over it, from its sill to its lintel.
+/// A window above a low wall is seen over it, from its sill to its lintel.
 #[test]
 fn what_stands_behind_a_low_wall_is_seen_above_it() {
     let world = World::from_segments(vec![
@@ -113,7 +113,7 @@ fn pictures_are_taken_standing_still() {
     assert!(solo.sensing().snapshot().is_some());
 }
 
-/// In a corner the walls are read as they stand, by every sonar at its own place.
+/// In a corner every sonar reads the wall as it stands, from its own mount.
 #[test]
 fn sonars_read_the_nearest_point_in_their_cones() {
     let solo = robot(room(), Pioneer2dxConfig::noiseless(), facing(Heading::EAST));
@@ -159,7 +159,7 @@ fn robots_meet_each_other() {
     );
 }
 
-/// A wheel that counts 3 % too much, the other too little: straight on is counted as a bend.
+/// One wheel counts 3 % too much and the other 3 % too little, so that a straight counts as a bend.
 #[test]
 fn odometry_follows_wheels_that_count_wrongly() {
     let scale = WheelScale {
@@ -201,7 +201,8 @@ fn mean(picture: &Picture) -> f64 {
     values.sum::<f64>() / (3.0 * picture.pixels.len() as f64)
 }
 
-/// Light changes from picture to picture, slowly: neighbours are more alike than strangers.
+/// Light changes slowly from picture to picture: successive pictures are more alike than distant
+/// ones.
 #[test]
 fn light_drifts_slowly() {
     let mut config = Pioneer2dxConfig::noiseless();
@@ -250,8 +251,7 @@ fn windows_glare_over_the_picture() {
     assert!(with[0] > without[0] + 20, "{with:?} {without:?}");
 }
 
-/// Nothing of a run with everything on depends on anything but its seed, and a trace of it comes
-/// back.
+/// A run with all noise on depends on nothing but its seed, and its trace can be replayed.
 #[test]
 fn a_noisy_run_is_replayed_to_the_bit() {
     let mut config = Pioneer2dxConfig::paper();

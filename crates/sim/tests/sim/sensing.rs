@@ -290,7 +290,7 @@ fn a_maze_marks_its_zones_and_cells() {
     assert!((world.bounds().width() - 1.5).abs() < 1e-12);
 }
 
-/// A crowd in a maze of 40,000 walls, stepped a little: it works, and bodies stay apart.
+/// Steps a crowd a little in a maze of 40,000 walls: bodies stay apart.
 #[test]
 fn a_crowd_in_a_large_maze() {
     let side = 199;

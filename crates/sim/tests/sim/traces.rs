@@ -153,7 +153,7 @@ proptest! {
         prop_assert_eq!(again.to_json().unwrap(), text);
     }
 
-    /// Whatever is done to the text, reading it never panics.
+    /// Reading never panics, whatever is done to the text.
     #[test]
     fn a_garbled_world_is_refused(
         world in worlds::world(),

@@ -19,7 +19,7 @@ pub struct AvoidBrain {
 }
 
 impl AvoidBrain {
-    /// Takes in what the robot did, even if another brain chose it.
+    /// Takes in the robot's last action and its outcome, even if another brain chose the action.
     pub(crate) fn learn(&mut self, doing: Doing) {
         match doing {
             Doing::PutDown => *self = Self::default(),

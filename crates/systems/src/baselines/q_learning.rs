@@ -1,8 +1,8 @@
-//! Q-learning, which both the micromouse's and the e-puck's paper set themselves against.
+//! Q-learning, with which both the micromouse's and the e-puck's paper compare themselves.
 
 use rand::{Rng, RngExt};
 
-/// The task to learn: the cheapest way from the start to a goal.
+/// A task to learn: the cheapest way from the start to a goal.
 pub trait LearningTask {
     /// Returns the state each episode begins in.
     fn start(&self) -> usize;
@@ -10,7 +10,7 @@ pub trait LearningTask {
     fn states(&self) -> usize;
     /// Returns the number of actions of a state, at least 1.
     fn actions(&self, state: usize) -> u32;
-    /// Returns the transition that an action leads to.
+    /// Returns the transition of an action.
     fn act(&self, state: usize, action: u32) -> Transition;
     /// Returns whether an episode ends in a state.
     fn is_goal(&self, state: usize) -> bool;
@@ -19,9 +19,9 @@ pub trait LearningTask {
 /// Result of an action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Transition {
-    /// The state after it.
+    /// State after the transition.
     pub next: usize,
-    /// Cost of the action, in a unit of the task's own.
+    /// Cost of the action, in the task's own unit.
     pub cost: u32,
 }
 
@@ -89,7 +89,7 @@ pub struct QLearner<T> {
 }
 
 impl<T: LearningTask> QLearner<T> {
-    /// Returns a learner at the start that knows nothing.
+    /// Returns a learner at the start, without experience.
     #[must_use]
     pub fn new(config: QLearningConfig, task: T) -> Self {
         let values = (0..task.states()).map(|state| vec![0.0; task.actions(state) as usize]);
@@ -149,7 +149,8 @@ impl<T: LearningTask> QLearner<T> {
         best as u32
     }
 
-    /// Returns the cost of the learned way from the start to a goal, or `None` if it leads to none.
+    /// Returns the cost of the learned way from the start to a goal, or `None` if it does not reach
+    /// one.
     #[must_use]
     pub fn greedy_cost(&self) -> Option<u32> {
         let (mut at, mut cost) = (self.task.start(), 0);

@@ -6,7 +6,7 @@ use tolman_robot::Mapper;
 
 use crate::{Brain, TimeStep};
 
-/// The lower bound: a random one of the four directions for each action. Not in the paper.
+/// The lower bound: draws one of the four directions for each action. Not in the paper.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Random;
 

@@ -29,8 +29,9 @@ pub struct WallFollow {
     view: Option<(Scan, Heading)>,
 }
 
-/// Angle on both sides of a direction within which a beam shows a wall, rad. It does if its range
-/// is below the corridor's width; through an opening that the robot fits through it sees farther.
+/// Angle on both sides of a direction within which a beam shows a wall, rad. A beam shows a wall if
+/// its range is below the corridor's width. Through an opening in which the robot fits it reaches
+/// farther.
 const WATCHED: f64 = PI / 12.0;
 
 impl WallFollow {

@@ -7,14 +7,14 @@ use tolman_robot::epuck::{EpuckSensing, TRACK, WHEEL_RADIUS, WheelSpeeds, WheelT
 /// heading and both errors (Kalman 1960).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct WheelCalibration {
-    /// Share by which the left and the right wheel roll more than they count.
+    /// Shares by which the left and the right wheel roll more than they count.
     errors: [f64; 2],
     /// Covariance of the heading, rad, and of both errors.
     covariance: [[f64; 3]; 3],
     /// Distances rolled by the left and the right wheel since the last reading of the walls, m,
     /// ahead positive.
     rolled: [f64; 2],
-    /// Sum of both distances, ahead and backward, since then, m.
+    /// Distance that the wheels have turned since then, ahead and backward, m, summed over both.
     turned: f64,
 }
 
@@ -29,7 +29,7 @@ const ANY_HEADING: f64 = 0.2;
 /// eighth of a turn.
 const LOST: f64 = 0.1;
 
-/// The heading as the walls show it.
+/// Reading of the heading by walls.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reading {
     /// Heading minus the robot's belief, rad.
@@ -41,7 +41,8 @@ pub(super) struct Reading {
 /// Variance that slipping wheels add to the heading, rad² per metre that both of them roll.
 const SLIP: f64 = 2e-3;
 
-/// Limit in standard deviations. A reading that is farther off belongs to another wall.
+/// Maximum deviation, in standard deviations. A larger one means that the reading belongs to
+/// another wall.
 const ODD: f64 = 4.0;
 
 impl WheelCalibration {
@@ -57,7 +58,7 @@ impl WheelCalibration {
         turned: 0.0,
     };
 
-    /// Returns the command that makes the wheels roll as `command` says.
+    /// Returns the command that makes the wheels roll at the speeds in `command`.
     pub(super) fn command(&self, command: &WheelSpeeds) -> WheelSpeeds {
         let [left, right] = self.errors;
         WheelSpeeds {
@@ -66,7 +67,7 @@ impl WheelCalibration {
         }
     }
 
-    /// Takes in what the encoders counted, and returns it with the known errors corrected.
+    /// Takes in the encoders' counts, and returns them with the known errors corrected.
     pub(super) fn sense(&mut self, sensing: &EpuckSensing) -> EpuckSensing {
         let encoders = sensing.encoders.map(|turns| {
             let counted = [turns.left, turns.right].map(|turn| turn * WHEEL_RADIUS);
@@ -86,7 +87,7 @@ impl WheelCalibration {
         }
     }
 
-    /// Takes in the heading's error as the walls show it, and returns the correction to apply, rad.
+    /// Takes in the heading's error by the walls, and returns the correction to apply, rad.
     pub(super) fn read(&mut self, reading: Reading) -> f64 {
         self.predict();
         let Reading { off, deviation } = reading;
@@ -110,7 +111,7 @@ impl WheelCalibration {
     }
 
     /// Forgets the heading, which may be off by more than walls can show. The next reading is
-    /// accepted as it is, and teaches nothing about the wheels.
+    /// accepted unchanged, and teaches nothing about the wheels.
     const fn forget_heading(&mut self) {
         self.covariance[0] = [ANY_HEADING, 0.0, 0.0];
         self.covariance[1][0] = 0.0;

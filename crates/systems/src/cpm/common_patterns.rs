@@ -15,8 +15,8 @@ use super::walker::{Observation, WalkResult, Walker};
 #[derive(Clone, Debug)]
 pub struct CommonPatterns {
     dictionary: Dictionary,
-    /// The units of SOINN with their patterns. A unit holds what was seen, and what would be seen
-    /// when walking the other way.
+    /// Units of SOINN with their patterns. A unit holds the observation and the one seen when
+    /// walking the other way.
     units: Vec<([f64; FEATURES], PatternId)>,
     unit_count: u32,
     cluster_count: u32,
@@ -50,9 +50,9 @@ pub enum Lesson {
     Seconds(f64),
 }
 
-/// Lets a robot wander through a learning maze, taking random branches at junctions. Returns what
-/// it observed until its lesson was over: "the robot can learn the CPs for ca. 1500 s; thereby 1000
-/// steps are taken".
+/// Lets a robot wander through a learning maze, taking random branches at junctions. Returns its
+/// observations until the lesson was over: "the robot can learn the CPs for ca. 1500 s; thereby
+/// 1000 steps are taken".
 ///
 /// # Errors
 /// [`WalkError`](super::WalkError).
@@ -90,7 +90,7 @@ pub fn wander<B: CpmRobot>(
 }
 
 impl CommonPatterns {
-    /// Returns the common patterns of observations, which SOINN learns.
+    /// Learns the common patterns of observations by SOINN.
     ///
     /// # Errors
     /// [`LearnPatternsError`].
@@ -141,7 +141,7 @@ impl CommonPatterns {
         })
     }
 
-    /// Returns the patterns of a robot that has been nowhere yet: landmarks only. It
+    /// Returns the patterns of a robot without observations: landmarks only. It
     /// [learns](Self::learn_on) the others on its way.
     ///
     /// # Errors
@@ -181,7 +181,7 @@ impl CommonPatterns {
         Ok(patterns)
     }
 
-    /// Returns patterns that were learned before, from their dictionary and the counts of SOINN.
+    /// Returns the patterns from a dictionary and the counts of SOINN, as learned before.
     #[must_use]
     pub fn restored(dictionary: Dictionary, unit_count: u32, cluster_count: u32) -> Self {
         let patterns = (0..dictionary.len() as u32).map(PatternId);
@@ -222,7 +222,7 @@ impl CommonPatterns {
             .collect()
     }
 
-    /// Returns the patterns as the map uses them.
+    /// Returns the patterns as the map's dictionary.
     #[must_use]
     pub const fn dictionary(&self) -> &Dictionary {
         &self.dictionary

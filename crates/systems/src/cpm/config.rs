@@ -8,15 +8,15 @@ pub struct CpmConfig {
     pub mapping: Mapping,
     /// Method of comparing fragments.
     pub matching: FragmentMatching,
-    /// Fragments that are compared.
+    /// Fragments with which a new one is compared.
     pub candidates: Candidates,
     /// Choice at a junction without unknown ports.
     pub onward: Onward,
-    /// Maximum number of fragments walked before the explorer gives up. Nothing else ends the
-    /// exploration of a robot that recognizes nothing: its map grows with each fragment.
+    /// Maximum number of fragments walked before the explorer gives up. A robot that recognizes
+    /// nothing would explore forever: its map grows with each fragment.
     pub most_traversals: u32,
     /// Number of walks along each fragment since the map last changed, after which a robot that
-    /// [checks](super::Aim::Check) its map calls it right. A wrong map shows when it is walked
+    /// [checks](super::Aim::Check) its map declares it right. A wrong map shows when it is walked
     /// again. 0 in the paper.
     #[serde(default)]
     pub checks: u32,
@@ -30,11 +30,11 @@ pub struct CpmConfig {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Onward {
-    /// Goes the shortest known way to a junction that has one. Theorem 1 needs no more.
+    /// The shortest known way to a junction that has one. Theorem 1 needs no more.
     ShortestKnownWay,
-    /// Takes the paper literally: "It continues forward until reaching a junction that has some
-    /// remaining unknown ports". It leaves by a random port. This can go round in circles and
-    /// breaks the proof of Theorem 1.
+    /// A random port, taking the paper literally: "It continues forward until reaching a junction
+    /// that has some remaining unknown ports". This can go round in circles and breaks the proof of
+    /// Theorem 1.
     GoOn,
 }
 

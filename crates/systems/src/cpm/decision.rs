@@ -23,11 +23,11 @@ pub enum Aim {
 pub enum JunctionDecision {
     /// Turn and follow the fragment.
     Go(Leg),
-    /// There is nothing more to do for this aim.
+    /// Nothing is left to do for this aim.
     Done(Done),
 }
 
-/// One fragment to walk.
+/// Walk along one fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Leg {
     /// Turn Δ to make first.
@@ -44,7 +44,7 @@ pub struct Leg {
 pub enum Done {
     /// The aim is reached.
     Reached,
-    /// Everything that can be reached was explored, and the landmark is not there.
+    /// Everything that can be reached was explored, and the landmark was not found.
     NotThere,
     /// [`most_traversals`](super::CpmConfig::most_traversals) fragments were walked.
     OutOfPatience,

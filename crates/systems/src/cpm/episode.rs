@@ -13,7 +13,7 @@ pub struct EpisodeSummary {
     pub observations: u32,
 }
 
-/// State of the robot when an episode began.
+/// State of the robot at the beginning of an episode.
 #[derive(Clone, Copy, Debug)]
 pub struct Begun {
     time_us: u64,

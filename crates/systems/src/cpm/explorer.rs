@@ -29,7 +29,7 @@ pub struct Explorer {
 
 impl Explorer {
     /// Returns an explorer at a place that ends fragments, as if the robot had come in by port 0.
-    /// At a dead end that is its only port. Elsewhere it is the first opening counter-clockwise
+    /// At a dead end, port 0 is the only one. Elsewhere it is the first opening counter-clockwise
     /// from straight behind.
     ///
     /// As in the paper, a robot in mid-fragment has to drive on to the first such place before.
@@ -58,7 +58,7 @@ impl Explorer {
         }
     }
 
-    /// Takes in a walk: the turn that was performed, and what was met.
+    /// Takes in a walk: the turn that was performed, and the robot's observations.
     ///
     /// # Errors
     /// [`CpmError`]; the explorer is as before then.
@@ -80,7 +80,7 @@ impl Explorer {
 
     /// Returns the decision at this junction. It changes nothing but the state of `rng`.
     ///
-    /// O(fragments · log fragments); [`Aim::WayBack`] and [`Aim::Shortest`] take that for each
+    /// O(fragments · log fragments); [`Aim::WayBack`] and [`Aim::Shortest`] take as long for each
     /// junction.
     pub fn decide(&self, aim: Aim, rng: &mut impl Rng) -> JunctionDecision {
         if let Some(done) = self.is_done(aim) {
@@ -125,7 +125,7 @@ impl Explorer {
         Some((number, self.map().junction(junction)?))
     }
 
-    /// Returns the first leg of the shortest known way to a landmark.
+    /// Returns the first leg of the shortest known way to a landmark, or `None` if none is known.
     fn towards(&self, landmark: Landmark) -> Option<Leg> {
         self.first_leg(|id| self.map().has(id, landmark))
     }
@@ -164,7 +164,7 @@ impl Explorer {
     }
 
     /// Returns the first leg to a fragment that was walked too rarely since the map last changed.
-    /// It begins here, or at the nearest place that has one.
+    /// The fragment begins here, or at the nearest place that has one.
     fn walk_again(&self, rng: &mut impl Rng) -> Option<Leg> {
         let is_rare = |port: Port| {
             let end = self.map().end_at(port)?;
@@ -182,7 +182,7 @@ impl Explorer {
         }
     }
 
-    /// Returns a random port other than the one behind. Out of a dead end there is only that one.
+    /// Returns a random port other than the one behind; at a dead end, the one behind.
     fn wander(&self, rng: &mut impl Rng) -> Option<Leg> {
         let (behind, here) = self.here()?;
         let turn = match here.degree() {

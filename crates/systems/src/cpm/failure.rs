@@ -15,13 +15,13 @@ pub enum CpmFailure<E> {
     /// The robot failed.
     #[error(transparent)]
     Walk(#[from] WalkError<E>),
-    /// The map refuses what the robot met.
+    /// The map refuses an observation.
     #[error(transparent)]
     Map(#[from] CpmError),
     /// Dead reckoning is not a number.
     #[error(transparent)]
     Reckoning(#[from] IntervalError),
-    /// The robot's place cannot be searched for on the maps.
+    /// The robot's place cannot be searched on the maps.
     #[error(transparent)]
     Localize(#[from] LocalizeError),
     /// The map has no start.
@@ -32,7 +32,7 @@ pub enum CpmFailure<E> {
         "the robot is at {found}, which is not where its map begins; put it at the start of the maze in which the map was learned"
     )]
     NotTheStart {
-        /// The place that it sees.
+        /// Sighting of the robot's place.
         found: Sighting,
     },
 }

@@ -21,8 +21,8 @@ use super::walker_config::HeadingBy;
 
 /// Layer 3: maps by common patterns, reasons at junctions, plans (section 4, figure 2).
 ///
-/// It has no body. It takes the robot over from its lower layers, a [`Walker`], for one fragment at
-/// a time.
+/// It has no body. It is lent the robot by its lower layers, a [`Walker`], for one fragment at a
+/// time.
 #[derive(Clone, Debug)]
 pub struct Layer3 {
     patterns: CommonPatterns,
@@ -42,7 +42,7 @@ const HEADING_MARGIN: f64 = 0.6;
 /// Input that CPM learns from: the start of a map, or a walk along a fragment.
 #[derive(Clone, Debug, PartialEq)]
 pub enum CpmObservation {
-    /// The place where the robot began, with its first way out behind it.
+    /// Place where the robot began, with its first way out behind it.
     Began(Sighting),
     /// A walk along a fragment.
     Walked(Walked),
@@ -53,7 +53,7 @@ pub enum CpmObservation {
 pub struct Walked {
     /// Turn made at the place where the fragment begins.
     pub turn: Turn,
-    /// Observations on the way, up to the end or to where the robot turned round.
+    /// Observations on the way, up to the end or to the point where the robot turned round.
     pub observations: Vec<Observation>,
     /// Place at the fragment's end; `None` if the robot turned round in it.
     pub sighting: Option<Sighting>,
@@ -88,7 +88,7 @@ impl Layer3 {
         }
     }
 
-    /// Lets a robot look where it is and begin its map there. `patterns` and `novelty` are those of
+    /// Lets a robot look round and begin its map there. `patterns` and `novelty` are those of
     /// [`new`](Self::new).
     ///
     /// # Errors
@@ -103,8 +103,7 @@ impl Layer3 {
         Ok(Self::new(patterns, novelty, explorer))
     }
 
-    /// Lets a robot with a map look where it is. The map uses these patterns and has to begin
-    /// there.
+    /// Lets a robot with a map look round. The map uses these patterns and has to begin there.
     ///
     /// # Errors
     /// [`CpmFailure`](super::CpmFailure), also if the robot is somewhere else.
@@ -137,7 +136,7 @@ impl Layer3 {
         Ok(Self::new(patterns, None, explorer))
     }
 
-    /// Takes note that the robot was put back to where its map begins.
+    /// Takes in that the robot was put back to the beginning of its map.
     ///
     /// # Errors
     /// [`CpmFailure`](super::CpmFailure).
@@ -170,7 +169,7 @@ impl Layer3 {
         &mut self.explorer
     }
 
-    /// Takes in a walk, and returns what it changed on the map; `None` if the robot turned back.
+    /// Takes in a walk, and returns the change on the map; `None` if the robot turned back.
     ///
     /// # Errors
     /// [`CpmError`]; the map is then unchanged.
@@ -229,7 +228,7 @@ impl Layer3 {
         }))
     }
 
-    /// Drives one fragment of a plan, skipping observations, and returns what stands at its end.
+    /// Drives one fragment of a plan, skipping observations, and returns the sighting at its end.
     ///
     /// # Errors
     /// [`CpmFailure`](super::CpmFailure).
@@ -276,7 +275,7 @@ impl Layer3 {
         place.map(Junction::sighting)
     }
 
-    /// Merges everything that is similar: the last step of the offline CPM. Returns the number of
+    /// Merges all similar fragments: the last step of the offline CPM. Returns the number of
     /// merges. Online there is nothing left to merge.
     ///
     /// # Errors

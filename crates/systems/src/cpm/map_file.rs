@@ -29,7 +29,7 @@ pub struct MapFile {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MapFileError {
-    /// The header or the JSON is invalid, or names another system; or the map cannot be written as
+    /// The header or the JSON is invalid, names another system, or the map cannot be written as
     /// JSON.
     #[error(transparent)]
     File(#[from] FileError),
@@ -66,7 +66,7 @@ impl MapFile {
     /// Reads the text of a file.
     ///
     /// # Errors
-    /// [`MapFileError`], which says where the fault is and what to do.
+    /// [`MapFileError`], with the place and the repair.
     pub fn from_json(text: &str) -> Result<Self, MapFileError> {
         let (origin, body): (_, Body) = FILES.read(text)?;
         let dictionary = body.map.dictionary()?;

@@ -8,7 +8,7 @@
 //! - [`CommonPatterns`] are the dictionary it learns in the learning maze (section 4.1).
 //! - [`Layer3`] maps, reasons and plans on `tolman_maps::cpm` (sections 4.2, 4.3 and 6), as its
 //!   [`Explorer`] decides, and plays the paper's episodes. A [`MapFile`] keeps a map.
-//! - A [`Relocalization`] finds out where a robot is that was put down somewhere (section 8).
+//! - A [`Relocalization`] finds the place of a robot that was put down anywhere (section 8).
 //! - [`Cpm`] is all this as a system that is lent a robot for one fragment at a time.
 //!
 //! A robot with a laser ring looks like an e-puck behind [`RingAsEpuck`].

@@ -9,7 +9,7 @@ pub enum Mode {
     Paper(CpmConfig),
     /// Uses dead reckoning.
     Reckoned(CpmConfig),
-    /// Uses dead reckoning, and only patterns that it learns on its way.
+    /// Uses dead reckoning, and only patterns learned on the way.
     Unlearned(CpmConfig),
 }
 

@@ -12,8 +12,8 @@ use super::{
 };
 use crate::places::{OfSites, Site, SiteWay};
 
-/// Feeds CPM with the places of a log, at the e-puck's scale. What is around the robot on its way
-/// becomes common patterns.
+/// Feeds CPM with the places of a log, at the e-puck's scale. The robot's surroundings on its way
+/// become common patterns.
 #[derive(Clone, Debug)]
 pub struct CpmOfSites {
     measures: RingMeasures,
@@ -21,16 +21,16 @@ pub struct CpmOfSites {
     config: CpmConfig,
 }
 
-/// Maximum error of a way, as a share of its length, and an additional margin, m.
+/// Maximum error of a way, as a share of its length.
 const SHARE: f64 = 0.01;
-/// Distance between the points in a place where robots from different sides stop, as a share of a
-/// corridor's width.
+/// Distance between the stopping points, in one place, of robots from different sides, as a share
+/// of a corridor's width.
 const PLACE: f64 = 0.75;
 /// Maximum error of a heading along the building's axes, rad.
 const HEADING: f64 = 0.35;
 
 impl CpmOfSites {
-    /// Returns the values for corridors that are `corridor_width` metres wide.
+    /// Returns the values for corridors of width `corridor_width`, m.
     #[must_use]
     pub fn indoor(corridor_width: f64) -> Self {
         let measures = RingMeasures {
@@ -91,7 +91,7 @@ impl OfSites for CpmOfSites {
     }
 }
 
-/// Returns the ways out of a place, counter-clockwise from the one that the robot came by.
+/// Returns the ways out of a place, counter-clockwise from the one by which the robot came.
 fn ways(site: &Site) -> impl Iterator<Item = usize> + '_ {
     let quarters = (0..4).map(|turned| (site.came_by + turned) % 4);
     quarters.filter(|quarter| site.open[*quarter])

@@ -42,8 +42,8 @@ impl Calibrated {
         }
     }
 
-    /// Takes in what the body senses after it was commanded `command`. What does not come is made
-    /// up for some steps: sensors read as before, and wheels turn as commanded.
+    /// Takes in the body's readings after `command`. Missing ones are replaced for some steps:
+    /// sensors read as before, and wheels turn as commanded.
     fn sense(&mut self, now: &EpuckSensing, command: &WheelSpeeds) {
         let is_whole = now.proximity.is_some() && now.encoders.is_some();
         self.missed = if is_whole { 0 } else { self.missed + 1 };

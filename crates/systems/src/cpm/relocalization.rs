@@ -9,15 +9,16 @@ use super::robot::CpmRobot;
 use super::walker::{BeforePlace, Prospect, Walk, WalkError, WalkResult, Walker};
 use super::whereabouts::{Approach, SURE, Whereabouts};
 
-/// Walks of one robot along the same fragment differ by less than one stride in twenty.
+/// Parameters of localization. Walks of one robot along the same fragment differ by less than one
+/// stride in twenty.
 const CONFIG: LocalizerConfig = {
     let mut config = LocalizerConfig::usual();
     config.slip = 0.05;
     config
 };
 
-/// Finds the map that a robot is on, of several, and its place there. The robot was put down
-/// anywhere, even in mid-fragment (section 8, "the start point is changed").
+/// Finds a robot's place on one of several maps. The robot was put down anywhere, even in
+/// mid-fragment (section 8, "the start point is changed").
 ///
 /// The robot goes to the place ahead by its approach. From there it takes random fragments that its
 /// maps have. The search ends when it is sure, or after a set number of places. The paper's robot
@@ -27,7 +28,7 @@ pub struct Relocalization {
     patterns: CommonPatterns,
     localizer: Localizer,
     approach: Approach,
-    /// Maximum number of places that it may still visit after the first.
+    /// Maximum number of places visited after the first.
     last: usize,
     found: Whereabouts,
     /// Number of ways out of its present place.
@@ -55,14 +56,15 @@ impl Relocalization {
         })
     }
 
-    /// Returns the result so far. In [`Whereabouts::here`], `Location::ahead` is the port behind
-    /// the robot.
+    /// Returns the result so far. At the end of a fragment, `Location::ahead` in
+    /// [`Whereabouts::here`] is the port behind the robot.
     #[must_use]
     pub const fn found(&self) -> &Whereabouts {
         &self.found
     }
 
-    /// Drives to the next place. Breaks when it is sure, or has visited as many places as it may.
+    /// Drives to the next place. Breaks when the robot is sure, or has visited the maximum number
+    /// of places.
     ///
     /// # Errors
     /// [`CpmFailure`](super::CpmFailure).
@@ -127,7 +129,7 @@ impl Relocalization {
     }
 }
 
-/// Adds what is known when a place comes into sight.
+/// Takes in the view of a place as it comes into sight.
 fn take_in(
     localizer: &mut Localizer,
     prospect: &Prospect,

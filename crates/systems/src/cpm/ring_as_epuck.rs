@@ -35,12 +35,11 @@ pub struct RingMeasures {
     pub body_radius: f64,
     /// Turn made in one time step by the command `turn = 1`, rad.
     pub turn_per_step: f64,
-    /// Way covered in one time step by the command `translate = 1`, m.
+    /// Distance covered in one time step by the command `translate = 1`, m.
     pub translate_per_step: f64,
     /// Length of its time step, µs.
     pub step_us: u64,
-    /// Smallest error to which a turn can be controlled, rad: what the motors' smallest turn
-    /// leaves.
+    /// Minimum error to which a turn can be controlled, rad: half the motors' smallest turn.
     pub turn_tolerance: f64,
 }
 
@@ -80,8 +79,8 @@ impl RingMeasures {
         self.corridor_width / EPUCK_WIDTH
     }
 
-    /// Returns the paper's parameters of driving and observing, limited to the speed that the time
-    /// step allows and to the clearance that the body needs.
+    /// Returns the paper's parameters of driving and observing. They are limited to the speed that
+    /// the time step allows and to the clearance that the body needs.
     #[must_use]
     pub fn walker_config(&self) -> WalkerConfig {
         let epuck = EpuckMeasures {

@@ -24,7 +24,7 @@ use super::walker::{RestingWalker, Walker};
 use super::walker_config::WalkerConfig;
 use super::whereabouts::Approach;
 
-/// CPM as a system: it learns a map of any maze with any [`CpmRobot`], and goes where it is sent.
+/// CPM as a system: it learns a map of any maze with any [`CpmRobot`], and goes to goals.
 ///
 /// An action is one fragment, from one place to the next. It holds no robot between two actions. If
 /// the robot is moved then, call [`carried`](Self::carried).
@@ -32,7 +32,7 @@ use super::whereabouts::Approach;
 /// - [`Task::Explore`] ends when all ways on the map were walked.
 /// - [`Task::Reach`] drives the shortest known way, skipping observations. If none is known, it
 ///   explores.
-/// - [`Task::Localize`] finds out where on its map the robot is.
+/// - [`Task::Localize`] finds the robot's place on its map.
 #[derive(Clone, Debug)]
 pub struct Cpm {
     walker: WalkerConfig,
@@ -57,19 +57,19 @@ pub struct Cpm {
     rng: ChaCha8Rng,
 }
 
-/// Knowledge about the robot's place in the world.
+/// Knowledge of the robot's place in the world.
 #[derive(Clone, Debug)]
 enum Stance {
-    /// Nothing: it has just been switched on, or was carried.
+    /// None: the robot has just been switched on, or was carried.
     Anywhere,
     /// The robot is localizing.
     Searching(Box<(RestingWalker, Relocalization)>),
-    /// The robot is at the place where its map has it.
+    /// The robot is at the place that its map has for it.
     AtPlace(Box<RestingWalker>),
 }
 
-/// Number of places after which a lost robot stops localizing. It then continues from where it most
-/// likely is.
+/// Number of places after which a lost robot stops localizing. It then continues from its likeliest
+/// place.
 const MOST_PLACES: u32 = 12;
 
 /// Minimum distance of two places, in corridor widths.
@@ -111,9 +111,9 @@ impl Cpm {
         }
     }
 
-    /// Returns a robot that has been nowhere. Observations far from all it knows become patterns
-    /// (section 8, "the CPs must be learned incrementally"). Dead reckoning takes its headings from
-    /// the walls.
+    /// Returns a robot without observations. Observations far from all known patterns become
+    /// patterns (section 8, "the CPs must be learned incrementally"). Dead reckoning takes its
+    /// headings from the walls.
     ///
     /// # Errors
     /// [`CpmError::Dictionary`], which no configuration causes.
@@ -129,7 +129,7 @@ impl Cpm {
         })
     }
 
-    /// Returns a robot that is somewhere on a map in these `patterns`. It localizes first.
+    /// Returns a robot at an unknown place of a map in these `patterns`. It localizes first.
     ///
     /// # Errors
     /// [`CpmError`] if the map has no place.
@@ -143,8 +143,8 @@ impl Cpm {
         Self::with_maps(walker, patterns, config, vec![map], seed)
     }
 
-    /// Returns a robot that is somewhere on one of several maps in these `patterns`. It first finds
-    /// out on which one, and where.
+    /// Returns a robot at an unknown place of one of several maps in these `patterns`. It first
+    /// finds the map and the place.
     ///
     /// # Errors
     /// [`CpmError`] if the first map has no place.
@@ -165,12 +165,12 @@ impl Cpm {
         })
     }
 
-    /// Takes note that the robot was carried elsewhere, so that it localizes first.
+    /// Takes in that the robot was carried elsewhere, so that it localizes first.
     pub fn carried(&mut self) {
         self.standing = Stance::Anywhere;
     }
 
-    /// Returns the index of the map that it believes it is on.
+    /// Returns the index of the map on which it believes it is.
     #[must_use]
     pub const fn on(&self) -> usize {
         self.on
@@ -188,7 +188,7 @@ impl Cpm {
         self.layer.as_ref().map_or(&self.patterns, Layer3::patterns)
     }
 
-    /// Looks where the robot is and begins the map there.
+    /// Lets the robot look round and begins the map there.
     fn begin<R: CpmRobot>(&mut self, robot: &mut R) -> CpmResult<Standing, R> {
         let mut walker = Walker::new(robot, self.walker.clone());
         let patterns = self.patterns.clone();
@@ -323,7 +323,7 @@ impl Cpm {
         Aim::Check
     }
 
-    /// Returns why its map is doubtful, or `None` if it finds no reason.
+    /// Returns the reason to doubt its map, or `None` if it finds none.
     fn doubt(&self) -> Option<MapDoubt> {
         self.explorer()?.mapper.doubt(self.apart())
     }
@@ -334,7 +334,7 @@ impl Cpm {
     }
 
     /// Counts the walks in a row after which the map is impossible. After [`MOST_DOUBTFUL`] of them
-    /// it begins another map, or gives up.
+    /// the robot begins another map, or gives up.
     fn heed(&mut self) -> Standing {
         let doubt = self.explorer().and_then(|Explorer { mapper, .. }| {
             mapper.map().twice_at(mapper.at().junction, self.apart())
@@ -350,8 +350,8 @@ impl Cpm {
         }
     }
 
-    /// Drops an impossible map, and begins another where the robot is. Gives up after [`MOST_MAPS`]
-    /// of them, or on maps that it was given.
+    /// Drops an impossible map, and begins another at the robot's place. Gives up after
+    /// [`MOST_MAPS`] of them, or on a given map.
     fn begin_anew(&mut self, doubt: MapDoubt) -> Standing {
         if self.given_up >= MOST_MAPS || !self.known.is_empty() {
             return Standing::gave_up(format!("its map is doubtful: {doubt}"));
@@ -360,8 +360,8 @@ impl Cpm {
         self.begin_elsewhere()
     }
 
-    /// Takes note that the robot was moved during an exploration: it begins another map there, or
-    /// finds itself on the map that it was given.
+    /// Takes in that the robot was moved during an exploration. It begins another map there, or
+    /// localizes on the map that it was given.
     fn moved(&mut self) -> Standing {
         match self.known.is_empty() {
             true => self.begin_elsewhere(),
@@ -369,7 +369,7 @@ impl Cpm {
         }
     }
 
-    /// Drops its map and begins another where the robot stands, with the patterns it learned.
+    /// Drops its map and begins another at the robot's place, with the patterns it learned.
     fn begin_elsewhere(&mut self) -> Standing {
         if let Some(layer) = self.layer.take() {
             self.patterns = layer.patterns().clone();
@@ -559,7 +559,7 @@ pub enum CpmObserveError {
     /// No map was begun.
     #[error("the walk has no beginning: observe `CpmObservation::Began` first")]
     NotBegun,
-    /// The map refuses it.
+    /// The map refuses an input.
     #[error(transparent)]
     Map(#[from] CpmError),
 }

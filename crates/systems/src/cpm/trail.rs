@@ -6,7 +6,7 @@ use tolman_maps::cpm::{CpMap, MapUpdate, Port, Turn};
 pub(super) struct Trail {
     /// Number of places visited on maps that it has given up.
     forgotten: usize,
-    /// Starting points of walks that can be retraced on the map.
+    /// Starting points from which walks can be retraced on the map.
     bases: Vec<Base>,
 }
 
@@ -21,7 +21,7 @@ struct Base {
 #[derive(Clone, Copy, Debug)]
 struct TrailStep {
     turn: Turn,
-    /// Port that the walk led to, as the map named it then.
+    /// Port to which the walk led, by the map's names at that time.
     then: Port,
 }
 
@@ -67,7 +67,7 @@ impl Trail {
     }
 }
 
-/// Returns the port that a turn leads to, from a port behind the robot.
+/// Returns the port to which a turn leads, from the port behind the robot.
 fn beyond(map: &CpMap, at: Port, turn: Turn) -> Option<Port> {
     let exit = turn.exit(at.number, map.degree(at.junction)).ok()?;
     map.beyond(at.junction.port(exit))

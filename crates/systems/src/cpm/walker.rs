@@ -56,8 +56,8 @@ pub struct Observation {
 }
 
 impl Observation {
-    /// Returns the observation of the surroundings, from which a common pattern is learned; `None`
-    /// if fewer than two ways are seen.
+    /// Returns the observation of the surroundings, for learning a common pattern; `None` if it has
+    /// fewer than two ways.
     ///
     /// # Errors
     /// If the profile cannot be segmented.
@@ -82,12 +82,12 @@ impl Observation {
 /// A walk to the end of a fragment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Walk {
-    /// Observations on the way, up to the end or to where the robot turned round.
+    /// Observations on the way, up to the end or to the point where the robot turned round.
     pub observations: Vec<Observation>,
-    /// Ways out of the place at the end as they appeared when it came into sight, numbered as if
-    /// the robot entered it.
+    /// Ways out of the place at the end, as glimpsed when it came into sight. They are numbered as
+    /// if the robot entered it.
     pub glimpse: Option<Bearings>,
-    /// Place that the walk led to; `None` if the robot turned round and is back where it began.
+    /// Place at the end of the walk; `None` if the robot turned round and is back at its beginning.
     pub sighting: Option<Sighting>,
 }
 
@@ -96,7 +96,7 @@ pub struct Walk {
 pub struct Prospect {
     /// Observations on the way.
     pub observations: Vec<Observation>,
-    /// Ways out of the place as they appear, numbered as if the robot entered it.
+    /// Ways out of the place as glimpsed, numbered as if the robot entered it.
     pub glimpse: Option<Bearings>,
     /// Landmark at the place, if any.
     pub landmark: Option<Landmark>,
@@ -113,12 +113,12 @@ pub enum BeforePlace {
 
 /// A walk along a fragment in progress.
 struct Course {
-    /// Middle of the place that it leads from; `None` in mid-fragment, or if the place was left
+    /// Middle of the place from which it leads; `None` in mid-fragment, or if the place was left
     /// long ago.
     origin: Option<Point>,
     /// Distance driven when it began, m.
     begun: f64,
-    /// Landmark that it comes from, until that is no longer seen.
+    /// Landmark of the place behind, until it is no longer sensed.
     left: Option<Landmark>,
     track: Track,
     strides: u32,
@@ -133,13 +133,13 @@ enum Ahead {
     DeadEnd(View),
 }
 
-/// View from one position.
+/// View from one position of the robot.
 struct View {
     profile: Profile,
     segments: Segments,
 }
 
-/// A place, as the robot saw it.
+/// View of a place from its middle.
 struct Seen {
     glimpse: Option<Bearings>,
     sighting: Sighting,
@@ -214,8 +214,8 @@ const TRIMMED: f64 = 0.8;
 /// Distance before its middle at which a junction comes into sight, in corridor widths.
 const IN_SIGHT: f64 = 0.5;
 
-/// Number of strides on a known way of which one is not skipped. Two walks along one fragment
-/// differ by less than one in as many.
+/// Number of strides on a known way per stride that is not skipped. Two walks along one fragment
+/// differ by less.
 const SPREAD: u32 = 20;
 
 /// Mean sensor value beyond which a wall is nearer than any beside the middle of a corridor. The
@@ -229,12 +229,11 @@ const TOO_NEAR: f64 = 220.0;
 const CALIBRATED: f64 = 3e-3;
 const MOST_TURNS: u32 = 12;
 
-/// Change of a range, m, and number of sensors with such a change, from which on the robot stands
-/// elsewhere. Noise changes none by as much, and a single sensor may fail.
+/// Change of a range that noise does not make, m. Several sensors must agree, since one may fail.
 const ELSEWHERE: f64 = 0.03;
 const LEAST_CHANGED: usize = 2;
 
-/// Distance from the middle that counts as reached, m.
+/// Distance from the middle of a place within which the robot has reached it, m.
 const NEAR: f64 = 0.015;
 
 impl<B: CpmRobot> Walker<B> {
@@ -291,7 +290,7 @@ impl<B: CpmRobot> Walker<B> {
         &mut self.pilot.robot_mut().body
     }
 
-    /// Returns the believed pose, in the frame in which it began.
+    /// Returns the believed pose, in the frame of its first pose.
     pub const fn pose(&self) -> Pose {
         self.pilot.robot().pose
     }
@@ -324,7 +323,8 @@ impl<B: CpmRobot> Walker<B> {
         self.memory.observations
     }
 
-    /// Returns the pose at which the robot had turned into its last fragment.
+    /// Returns the pose at which the robot had turned into its last fragment, in the walker's
+    /// frame.
     pub const fn departed(&self) -> Pose {
         self.memory.departed
     }
@@ -347,8 +347,8 @@ impl<B: CpmRobot> Walker<B> {
         self.pilot.robot().driven
     }
 
-    /// Stands for a time step and returns whether it was moved before it: several sensors read
-    /// what they cannot in the same place.
+    /// Stands still for a time step and returns whether the robot was moved before it. It was if
+    /// several sensors' readings are impossible at the same place.
     ///
     /// # Errors
     /// [`WalkError`].
@@ -383,7 +383,7 @@ impl<B: CpmRobot> Walker<B> {
         &self.config
     }
 
-    /// Looks round and returns the place where it is. In mid-fragment it first drives to the next
+    /// Looks round and returns the robot's place. In mid-fragment it first drives to the next
     /// junction, dead end or landmark. "The robot continues moving forward until the first junction
     /// is found" (section 8).
     ///
@@ -394,11 +394,11 @@ impl<B: CpmRobot> Walker<B> {
         walk.sighting.ok_or(WalkError::Lost)
     }
 
-    /// Begins like [`begin`](Self::begin), and also returns what it saw on the way; nothing if it
+    /// Begins like [`begin`](Self::begin), and also returns the observations on the way; none if it
     /// starts at a place.
     ///
     /// When the place ahead comes into sight, `choose` decides what to do. If the robot turns
-    /// round, it returns what it saw since then.
+    /// round, only observations since then are returned.
     ///
     /// # Errors
     /// [`WalkError`].
@@ -568,15 +568,14 @@ impl<B: CpmRobot> Walker<B> {
         self.config.heading == HeadingBy::Walls
     }
 
-    /// Returns whether the place that a course leads from is more than `widths` corridor widths
-    /// back, after `driven` m in all.
+    /// Returns whether the origin of a course lies more than `widths` corridor widths back, after
+    /// `driven` m in all.
     fn is_beyond(&self, course: &Course, driven: f64, widths: f64) -> bool {
         course.origin.is_none() || driven - course.begun > widths * self.config.corridor_width
     }
 
-    /// Returns whether `middle` still belongs to the place that a course leads from: consecutive
-    /// sightings of a junction are one. It no longer does once the robot has had the time to come
-    /// round.
+    /// Returns whether `middle` still belongs to the origin of a course: consecutive sightings of a
+    /// junction are one. It does not once the course is long enough to return there.
     fn is_origin(&self, course: &Course, driven: f64, middle: Point) -> bool {
         let width = self.config.corridor_width;
         course.origin.is_some_and(|origin| {
@@ -615,8 +614,8 @@ impl<B: CpmRobot> Walker<B> {
         }
     }
 
-    /// Returns what is known of a fragment before the robot enters the place at its end, whose
-    /// middle is at `middle`.
+    /// Returns the observations, glimpse and landmark of a fragment before the robot enters the
+    /// place at its end. The middle of that place is at `middle`.
     fn prospect(&self, course: &Course, ahead: &Ahead, middle: Point) -> Prospect {
         let (glimpse, landmark) = match ahead {
             Ahead::Landmark(landmark) => (None, Some(*landmark)),
@@ -629,7 +628,7 @@ impl<B: CpmRobot> Walker<B> {
         }
     }
 
-    /// Returns the estimated middle of the place in sight, in the frame in which the robot began.
+    /// Returns the estimated middle of the place in sight, in the frame of the robot's first pose.
     fn middle_ahead(&self, ahead: &Ahead) -> Point {
         self.pose().transform(match ahead {
             Ahead::Landmark(_) => Point::new(TO_LANDMARK * self.config.corridor_width, 0.0),
@@ -638,7 +637,7 @@ impl<B: CpmRobot> Walker<B> {
         })
     }
 
-    /// Drives from where a landmark is first seen to near its middle.
+    /// Drives from the first sighting of a landmark to near its middle.
     fn drive_to_landmark(&mut self) -> WalkResult<(), B> {
         let width = self.config.corridor_width;
         let begun = self.driven();
@@ -720,8 +719,8 @@ impl<B: CpmRobot> Walker<B> {
         Bearings::of_directions(&ways).ok()
     }
 
-    /// Returns the bearings of the ways out of the present place, beginning with the one that the
-    /// robot came by. `None` before it has come to a place.
+    /// Returns the bearings of the ways out of the present place, beginning with the one by which
+    /// the robot came. `None` before it has come to a place.
     pub fn bearings(&self) -> Option<Bearings> {
         // The branches are already counter-clockwise.
         Bearings::of_directions(&self.memory.branches).ok()
@@ -741,8 +740,8 @@ impl<B: CpmRobot> Walker<B> {
         Some(libm::atan2(back.y, back.x))
     }
 
-    /// Returns whether the only way out is the one it came by, and the wall across the path is
-    /// within `widths` corridor widths.
+    /// Returns whether the only way out is the one behind, and the wall across the path is within
+    /// `widths` corridor widths.
     fn is_before_a_wall(&self, segments: &Segments, widths: f64) -> bool {
         let near = widths * self.config.corridor_width;
         // In a bend, too, the robot may for a moment see only the way behind it.
@@ -779,8 +778,8 @@ impl<B: CpmRobot> Walker<B> {
         Ok(())
     }
 
-    /// Removes the drift from the heading: walls stand at right angles, along the axes of the frame
-    /// in which the robot began.
+    /// Removes the drift from the heading: walls stand at right angles, along the axes of the
+    /// walker's frame.
     fn true_up(&mut self, profile: &Profile, segments: &Segments) {
         if self.config.heading == HeadingBy::Encoders {
             return;
@@ -798,8 +797,8 @@ impl<B: CpmRobot> Walker<B> {
         }
     }
 
-    /// Returns the number of strides from the middle of a place to within sight of the next, if
-    /// there were `observations` observations in between.
+    /// Returns the number of strides from the middle of a place to within sight of the next, given
+    /// the `observations` in between.
     #[must_use]
     pub fn strides(&self, observations: u32) -> u32 {
         // Between neighbouring places there are no observations, so their distance is unknown.

@@ -21,9 +21,9 @@ pub struct WalkerConfig {
     pub pilot: PilotConfig,
     /// Averaging of the vectors of a sweep.
     pub alignment: SensorAlignment,
-    /// Segmentation that tells junctions from paths.
+    /// Segmentation by which junctions differ from paths.
     pub segments: SegmentConfig,
-    /// Segmentation that makes features.
+    /// Segmentation from which features are computed.
     pub features: SegmentConfig,
     /// Search for the middle of a junction.
     pub meet_point: MeetPointConfig,
@@ -42,7 +42,8 @@ pub struct WalkerConfig {
 pub enum HeadingBy {
     /// The encoders alone.
     Encoders,
-    /// The encoders, and the walls where they are seen, which stand at right angles to each other.
+    /// Headings of the encoders, corrected by walls where they are seen. Walls stand at right
+    /// angles to each other.
     Walls,
 }
 

@@ -1,4 +1,4 @@
-//! Reading of a corridor from ranges and compass.
+//! Reads corridors by ranges and compass.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 
@@ -8,7 +8,7 @@ use tolman_robot::{Compass, Ranges, Scan};
 use super::{RoutineConfig, SenseError};
 
 impl RoutineConfig {
-    /// Returns half a corridor: how far from a wall ahead a robot in the middle of a cell stands.
+    /// Returns half a corridor's width, m: the distance of a wall ahead from the middle of a cell.
     pub(super) const fn half(&self) -> f64 {
         0.5 * self.corridor_width
     }
@@ -41,7 +41,7 @@ impl RoutineConfig {
         0.25 * self.corridor_width
     }
 
-    /// Returns the distance covered in one time step, m, and the greatest width of a jamb.
+    /// Returns the distance covered in one time step, m, which is also a jamb's greatest width.
     pub(super) const fn stride(&self) -> f64 {
         0.05 * self.corridor_width
     }
@@ -74,7 +74,7 @@ impl<'a> Around<'a> {
         Ok(Self { scan, heading })
     }
 
-    /// Returns what someone who looks `ahead` sees.
+    /// Returns the ranges to the left, to the right and ahead of a robot that looks `ahead`.
     pub(super) fn view(self, ahead: Heading) -> View {
         View {
             left: self.range(ahead.turned(FRAC_PI_2)),
@@ -124,12 +124,12 @@ pub(super) fn round_scan<S: Ranges>(sensing: &S) -> Result<&Scan, SenseError> {
     })
 }
 
-/// Openings and doorways beside the way, from which the middle of the next place follows.
+/// Openings and doorways beside the way, which locate the next place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Beside([Span; 3]);
 
 impl Beside {
-    /// Returns what is beside the robot at the start: it belongs to the place just left.
+    /// Returns the spans beside the robot at the start. They belong to the place just left.
     pub(super) fn at_start(view: View, gauge: &RoutineConfig) -> Self {
         Self(gauge.beside(view).map(Span::at_start))
     }
@@ -150,12 +150,12 @@ enum Span {
     Left,
     /// The opening is not there.
     Absent,
-    /// The opening began this far along the way, m.
+    /// The opening began at this distance along the way, m.
     Since(f64),
 }
 
 impl Span {
-    /// Returns where the middle of the span is, once it has ended.
+    /// Returns the middle of the span along the way, m, once it has ended.
     fn see(&mut self, there: bool, along: f64, shortest: f64) -> Option<f64> {
         match (*self, there) {
             (Self::Absent, true) => *self = Self::Since(along),

@@ -15,17 +15,17 @@ use super::{
 };
 
 /// The diktiometry as a system: it drives a robot from place to place, maps what it finds and goes
-/// where it is sent.
+/// to goals.
 ///
 /// Each action is one control routine, from a place to the next. Its tasks:
 ///
-/// - **Explore**: the [`Planner`](super::Planner)'s walk. It ends when three conditions hold.
-///   Nothing is left to try at any place that the map leads to. No two places may be one. The map
-///   does not contradict itself. It gives up a map that has contradicted itself for 20 moves. It
-///   gives up one that has not been folded for five moves for each of its places, at most 300. If
-///   the robot was carried elsewhere, so that the view differs from that at its last stop, it
-///   begins another map there. By the paper's rule of matching, or on a map that it was given, it
-///   gives up.
+/// - **Explore**: the [`Planner`](super::Planner)'s walk. It ends when nothing is left to try at
+///   any place that can be reached on the map, no two places may be one, and the map does not
+///   contradict itself. It gives up a map that has contradicted itself for 20 moves. It also
+///   gives up a map that was not folded for five moves per place, at most 300 moves. If the robot
+///   was carried elsewhere, so that the view differs from that at its last stop, it begins
+///   another map there. By the paper's rule of matching, or on a map that it was given, it gives
+///   up.
 /// - **Reach** a place: the map's plan, made again after every routine. It gives up if the map
 ///   knows no way.
 /// - **Reach** a landmark: the plan to the place where it was sensed last. Until it was sensed, the
@@ -45,7 +45,7 @@ pub struct Diktiometer<E> {
     config: DiktiometerConfig,
     eye: E,
     guide: Guide,
-    /// The places it came to, by the names they had then; `None` for a map that it dropped.
+    /// Places that it visited, by their ids at that time; `None` for places of a dropped map.
     visited: Vec<Option<PlaceId>>,
 }
 
@@ -90,25 +90,25 @@ pub enum DiktiometerError<E: Error + 'static> {
 #[derive(Clone, Debug, PartialEq, ThisError)]
 #[non_exhaustive]
 pub enum RefusedMove {
-    /// There is no map yet, and none can begin with a place that nothing is known about.
+    /// There is no map yet, and none can begin with an unknown place.
     #[error("begin with an observer of the log's first place")]
     Start(#[from] StartError),
-    /// The observer refuses it.
+    /// The observer refuses the move.
     #[error(transparent)]
     Step(#[from] ObservedMoveError),
 }
 
 impl<E> Diktiometer<E> {
-    /// Returns a system without a map: it begins one where it first acts. `seed` is that of its
-    /// random walk.
+    /// Returns a system without a map, which it begins at its first action. `seed` seeds its random
+    /// walk.
     #[must_use]
     pub fn new(config: DiktiometerConfig, eye: E, seed: u64) -> Self {
         let guide = Guide::new(None, config.heed, seed);
         Self::guided(config, eye, guide)
     }
 
-    /// Returns a system that goes on with the map of `observer`, learned by another or read from a
-    /// file. The mapper's configuration is the observer's.
+    /// Returns a system that continues with the map of `observer`, learned by another or read from
+    /// a file. The mapper's configuration is the observer's.
     #[must_use]
     pub fn with_map(mut config: DiktiometerConfig, eye: E, observer: Observer, seed: u64) -> Self {
         config.mapper = observer.config().clone();
@@ -148,8 +148,8 @@ impl<E> Mapper for Diktiometer<E> {
     type Observation = ObservedMove;
     type Error = RefusedMove;
 
-    /// Takes in a move that another made. Without a map it begins one at a place that nothing is
-    /// known of, which a mapper with percepts refuses.
+    /// Takes in a move made by another. Without a map it begins one at an unknown place, which a
+    /// mapper with percepts refuses.
     fn observe(&mut self, seen: &ObservedMove) -> Result<(), RefusedMove> {
         if let Some(observer) = self.guide.observer_mut() {
             if self.visited.is_empty() {
@@ -197,8 +197,8 @@ impl<E> Mapper for Diktiometer<E> {
     }
 }
 
-/// Returns the size of the present places, links and frames, bytes, without the grids of where the
-/// robot has been.
+/// Returns the memory of the present places, links and frames, bytes, without the grids of
+/// traversals.
 fn bytes(map: &Diktiometry) -> usize {
     let place = |place: &Place| {
         let histories = place.histories.iter();

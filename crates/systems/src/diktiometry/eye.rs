@@ -3,9 +3,9 @@ use tolman_robot::{Ranges, Sees};
 
 use super::{SenseError, round_scan};
 
-/// Converts what a robot senses to the columns by which it tells places apart.
+/// Converts a robot's readings to the columns of a view, by which it tells places apart.
 pub trait Eye<S> {
-    /// Returns the columns of what `sensing` shows: column 0 looks ahead, the others follow
+    /// Returns the columns of the view in `sensing`. Column 0 looks ahead; the others follow
     /// counter-clockwise, evenly spread over the full circle. `None` if it does not look.
     ///
     /// # Errors
@@ -17,14 +17,14 @@ pub trait Eye<S> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct NoEye;
 
-/// Looks by a camera that sees all round: three colours a column.
+/// Looks by a camera that sees all round: three colour values per column.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct CameraEye;
 
 /// Looks by the laser: the mean range of neighbouring beams, as a share of its reach.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LaserEye {
-    /// Number of columns that the beams are averaged to, ≥ 1; divides their number.
+    /// Number of columns, ≥ 1; divides the number of beams.
     pub columns: u32,
 }
 

@@ -16,38 +16,38 @@ use crate::stream;
 pub(super) struct Guide {
     mapping: Option<RoverMap>,
     whereabouts: Whereabouts,
-    /// Direction of the routine that is under way or broke off.
+    /// Direction of a routine in progress, or of one that broke off.
     under_way: Option<Direction>,
     planner: Planner,
     walk: ChaCha8Rng,
-    /// Place where each landmark was sensed last, by the id it had then.
+    /// Place where each landmark was sensed last, by its id at that time.
     landmarks: BTreeMap<Landmark, PlaceId>,
     /// Number of moves so far.
     moves: u32,
-    /// State of a doubtful map, and since which move.
+    /// Doubtful state of the map, and the move at which it began.
     doubt: Option<(MapState, u32)>,
-    /// Whether it was carried elsewhere since it began the map.
+    /// Whether the rover was carried elsewhere since the map began.
     is_carried: bool,
-    /// Whether it began the map itself.
+    /// Whether the guide began the map.
     is_own_map: bool,
 }
 
 /// Number of moves between two checks of what speaks against the map.
 const CHECKED: u32 = 10;
 
-/// Number of moves per place, and moves at most, without folding after which a map is given up:
-/// nearly all that fold do so sooner.
+/// Number of moves per place without folding after which a map is given up: nearly all maps that
+/// fold do so sooner.
 const PATIENCE: u32 = 5;
 const MOST_PATIENCE: u32 = 300;
 
-/// Number of moves for which a map may contradict itself before it is given up: bounds that hold
-/// repair none.
+/// Number of moves for which a map may contradict itself before it is given up. Bounds that hold do
+/// not repair contradictions.
 const MOST_CONTRADICTED: u32 = 20;
 
 /// Knowledge of the rover's place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Whereabouts {
-    /// The map has followed it long enough, or began where it stood.
+    /// The map has followed the rover long enough, or began at its place.
     Followed,
     /// The rover was set down at a place and has looked round.
     SetDown {
@@ -64,7 +64,7 @@ impl Whereabouts {
         matches!(self, Self::Followed | Self::SetDown { moves: 1.. })
     }
 
-    /// Returns what is known after a move, where confidence rests on the last `history` matches.
+    /// Returns the whereabouts after a move, where confidence rests on the last `history` matches.
     const fn after_a_move(self, history: usize) -> Self {
         match self {
             Self::SetDown { moves } if moves + 1 < history => Self::SetDown { moves: moves + 1 },
@@ -73,7 +73,7 @@ impl Whereabouts {
     }
 }
 
-/// The direction to go in to the next place, or how the task stands if there is nothing left to do.
+/// Direction to the next place, or the standing of the task if nothing is left to do.
 pub(super) type Next = ControlFlow<Standing, Direction>;
 
 /// Stream of the random walk; the same that a survey uses.
@@ -139,8 +139,8 @@ impl Guide {
         Ok(())
     }
 
-    /// Drops a map of its own in whose making the rover was carried elsewhere, and returns whether
-    /// it did: the next begins where it stands. Not by the paper's rule of matching.
+    /// Drops a map of its own during which the rover was carried elsewhere, and returns whether it
+    /// did. The next map begins at the rover's place. Not by the paper's rule of matching.
     pub(super) fn drops_map(&mut self) -> bool {
         let is_by_the_paper = self.observer().is_some_and(is_by_the_paper);
         if !(self.is_carried && self.is_own_map) || is_by_the_paper {
@@ -154,7 +154,7 @@ impl Guide {
         true
     }
 
-    /// Remembers that the rover senses `landmark` where it stands.
+    /// Remembers that the rover senses `landmark` at its place.
     pub(super) fn recognize(&mut self, landmark: Option<Landmark>) {
         if let (Some(landmark), Some(observer)) = (landmark, self.observer()) {
             let place = observer.place();
@@ -167,7 +167,7 @@ impl Guide {
         self.landmarks.insert(landmark, place);
     }
 
-    /// Lets `rover` go in `direction`, and the map take it in. Returns whether it went. If its view
+    /// Lets `rover` go in `direction`, and updates the map. Returns whether it went. If its view
     /// has changed since it stopped, it was carried elsewhere and does not go.
     pub(super) fn go<V: Rover>(
         &mut self,
@@ -196,14 +196,15 @@ impl Guide {
         Ok(true)
     }
 
-    /// Returns what speaks against the map now, and since when it does.
+    /// Returns the objection to the map and the number of moves when it arose, or `None` without
+    /// one.
     fn doubted(&self) -> Option<(MapState, u32)> {
         let state = self.observer().and_then(objection)?;
         let before = self.doubt.filter(|(before, _)| *before == state);
         Some(before.unwrap_or((state, self.moves)))
     }
 
-    /// Returns what to do next for `task`, if the rover senses the landmark `here`.
+    /// Returns the next step of `task`, if the rover senses the landmark `here`.
     pub(super) fn next(&mut self, task: Task, here: Option<Landmark>) -> Next {
         if self.is_done(task, here) {
             return Next::Break(Standing::Done);
@@ -290,7 +291,7 @@ impl Guide {
         Next::Continue(direction)
     }
 
-    /// Follows the plan to where a landmark was sensed, and explores where that is not known.
+    /// Follows the plan to the place of a landmark, and explores if none is known.
     fn seek(&mut self, landmark: Landmark, here: Option<Landmark>) -> Next {
         if let (Some(place), Some(observer)) = (self.place_of(landmark), self.observer()) {
             if place == observer.place() && here != Some(landmark) {
@@ -307,19 +308,19 @@ impl Guide {
         self.wander()
     }
 
-    /// Returns the place where `landmark` was sensed, by the name it has now.
+    /// Returns the place where `landmark` was sensed, by its present id.
     fn place_of(&self, landmark: Landmark) -> Option<PlaceId> {
         let place = *self.landmarks.get(&landmark)?;
         self.observer()?.map().paths.resolve(place)
     }
 
-    /// Returns the landmarks with the places where they were sensed, by the names these have now.
+    /// Returns the landmarks with the present ids of their places.
     pub(super) fn landmarks(&self) -> impl Iterator<Item = (Landmark, PlaceId)> + '_ {
         let all = self.landmarks.keys();
         all.filter_map(|landmark| Some((*landmark, self.place_of(*landmark)?)))
     }
 
-    /// Returns a few words on its situation.
+    /// Returns a description of its situation in a few words.
     pub(super) fn words(&self) -> String {
         let Some(observer) = self.observer() else {
             return String::new();
@@ -337,8 +338,8 @@ impl Guide {
     }
 }
 
-/// Goes to a place, `back` if that is a way, from where only two ways lead on, in opposite
-/// directions. That is a doorway at best.
+/// Goes to another place, `back` if possible, from a place that is a doorway at best: only two ways
+/// lead on, in opposite directions.
 fn leave_corridor<V: Rover>(rover: &mut V, back: Option<Direction>) -> Result<(), V::Error> {
     let axis = match rover.look()?.exits {
         [true, false, true, false] => [Direction::North, Direction::South],
@@ -360,7 +361,7 @@ fn is_by_the_paper(observer: &Observer) -> bool {
 }
 
 /// Returns the state of the map if it is doubtful; `None` by the paper's rule of matching, which
-/// does not ask.
+/// does not check it.
 fn objection(observer: &Observer) -> Option<MapState> {
     if is_by_the_paper(observer) {
         return None;
@@ -377,7 +378,7 @@ fn is_explored(observer: &Observer) -> bool {
     path_to(&observer.map().paths, observer.place().0, is_new).is_none()
 }
 
-/// Returns whether one hypothesis of where the robot is is confident, and no other.
+/// Returns whether exactly one hypothesis of the robot's place is confident.
 fn is_sure(observer: &Observer) -> bool {
     let high = observer.config().tracks.high;
     let confident = observer.tracks().iter();

@@ -9,9 +9,8 @@
 //!    [`Observer`](tolman_maps::diktiometry::Observer), which makes the map.
 //! 4. A [`Planner`] chooses where to go: at random, or as the map advises.
 //!
-//! A [`Diktiometer`] is all of this as a [`System`](tolman_robot::System): it explores, finds out
-//! where it is, and goes to places and landmarks. A [`Wayfinder`] is put down anywhere on a learned
-//! map.
+//! A [`Diktiometer`] is all of this as a [`System`](tolman_robot::System): it explores, localizes,
+//! and goes to places and landmarks. A [`Wayfinder`] is put down anywhere on a learned map.
 //!
 //! Source: S. Engelson, D. McDermott, "Maps Considered as Adaptive Planning Resources", AAAI Fall
 //! Symposium 1992.

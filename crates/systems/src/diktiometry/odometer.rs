@@ -1,6 +1,6 @@
 use tolman_geom::{Heading, Interval, IntervalError, PointBox};
 
-/// Sums up what wheels and compass say of a routine, within their bounds: the paper's "reasonable
+/// Sums up the odometry and the headings of a routine, within their bounds: the paper's "reasonable
 /// bounds on relative position".
 #[derive(Clone, Copy, Debug)]
 pub struct Odometer {
@@ -21,7 +21,7 @@ impl Odometer {
         }
     }
 
-    /// Begins a routine: nothing is gone yet.
+    /// Begins a routine with no displacement.
     pub const fn begin(&mut self) {
         self.gone = PointBox::ORIGIN;
     }
@@ -45,8 +45,8 @@ impl Odometer {
         self.add(if distance < 0.0 { -way } else { way }, before, after)
     }
 
-    /// Takes in a time step of which the wheels told nothing: the robot was to go `asked`, m, and
-    /// went at most twice as far.
+    /// Takes in a time step without odometry: the robot was commanded `asked`, m, and went at most
+    /// twice as far.
     ///
     /// # Errors
     /// [`IntervalError`] if `asked` is not a number.
@@ -60,7 +60,7 @@ impl Odometer {
         self.add(if asked < 0.0 { -way } else { way }, before, after)
     }
 
-    /// Adds an arc of a length within `way`.
+    /// Adds an arc whose length lies within `way`.
     fn add(&mut self, way: Interval, before: Heading, after: Heading) -> Result<(), IntervalError> {
         let turned = before.turn_to(after);
         // The chord of an arc is a little shorter than the arc.

@@ -6,12 +6,12 @@ use tolman_maps::diktiometry::{
 use super::{Diktiometer, DiktiometerConfig, NoEye, RoutineConfig};
 use crate::places::{OfSites, Site, SiteWay};
 
-/// Tells a diktiometry of the places of a log. Its actions are the four ways along the building's
+/// Feeds a diktiometry with the places of a log. Its actions are the four ways along the building's
 /// axes, counter-clockwise.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct DiktiometryOfSites {
-    /// The mapper.
+    /// Configuration of the mapper.
     pub mapper: Config,
     /// Maximum error of ways, as a share of their length.
     pub share: f64,
@@ -20,8 +20,8 @@ pub struct DiktiometryOfSites {
 }
 
 impl DiktiometryOfSites {
-    /// Returns the values for corridors of offices that are `corridor_width` metres wide, and scans
-    /// matched to those before.
+    /// Returns the values for corridors of offices, `corridor_width` wide, m, and for matched
+    /// scans.
     #[must_use]
     pub fn indoor(corridor_width: f64) -> Self {
         let mut mapper = Config::new(Config::compass_actions(), corridor_width);

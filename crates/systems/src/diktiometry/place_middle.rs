@@ -1,4 +1,4 @@
-//! Position of the middle of a place, by the walls and corners around the robot.
+//! Computes the middle of a place from the walls and corners around the robot.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -11,7 +11,7 @@ use super::{Around, RoutineConfig};
 pub(super) struct Offset {
     /// Too far ahead.
     pub(super) along: f64,
-    /// Too far to the left.
+    /// Distance to the left of the middle, m.
     pub(super) aside: f64,
 }
 

@@ -4,7 +4,7 @@ use rand::{Rng, RngExt};
 use tolman_maps::diktiometry::{Observer, Opportunity};
 use tolman_maze::Direction;
 
-/// The paper's planner: an essentially random walk that now and then follows the map's advice.
+/// The paper's planner: a random walk that sometimes follows the map's advice.
 ///
 /// "The use of exploration scripts were tested by randomly executing them when
 /// applicable (generally 30% of the time)."
@@ -23,14 +23,14 @@ pub struct PlannedMove {
     pub reason: Reason,
 }
 
-/// Reason why a robot goes somewhere.
+/// Reason for a robot's direction.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reason {
     /// A random move.
     Walk,
-    /// This script, which begins now.
+    /// This script, whose first action it is.
     Advice(Opportunity),
-    /// The script under way.
+    /// The script in progress.
     Script,
 }
 
@@ -45,7 +45,7 @@ impl Planner {
         }
     }
 
-    /// Drops the script under way: the robot was sent elsewhere.
+    /// Drops the script in progress, because the robot was sent elsewhere.
     pub fn drop_script(&mut self) {
         self.script.clear();
     }

@@ -19,19 +19,19 @@ use crate::stream;
 pub(super) struct RouteFinder {
     map: Observer,
     goal: Option<PlaceId>,
-    /// `None` before the rover stands at a place for the first time.
+    /// Belief; `None` before the rover stands at a place for the first time.
     belief: Option<PlaceBelief>,
     exits: [bool; 4],
-    /// Actions that were not as the map has them.
+    /// Actions that differed from the map.
     shut: BTreeSet<(PlaceId, Action)>,
     /// Number of moves since it knew where it was.
     unsure: usize,
     walk: ChaCha8Rng,
 }
 
-/// Probability of a place from which the robot is sure that it is there.
+/// Minimum probability of a place at which the robot is sure to be there.
 const SURE: f64 = 0.9;
-/// Chance that a landmark is not sensed at the place where it was learned.
+/// Probability that a landmark is not sensed at the place where it was learned.
 const UNSENSED: f64 = 0.05;
 /// Stream of the random walk.
 const WALK_STREAM: u64 = 1;
@@ -64,8 +64,7 @@ impl RouteFinder {
         self.belief.as_ref()
     }
 
-    /// Drives to a place from wherever it was put down, without changing the belief, and looks
-    /// round.
+    /// Drives to a place from anywhere, without changing the belief, and looks round.
     pub(super) fn find_footing<V: Rover>(&mut self, rover: &mut V) -> Result<(), V::Error> {
         let mut seen = rover.look()?;
         let mut ways = Vec::from(Direction::ALL);
@@ -82,7 +81,7 @@ impl RouteFinder {
         Ok(())
     }
 
-    /// Lets `rover` go in `direction` and takes in where that led.
+    /// Lets `rover` go in `direction` and takes in the result.
     pub(super) fn go<V: Rover>(
         &mut self,
         rover: &mut V,
@@ -111,21 +110,21 @@ impl RouteFinder {
         };
     }
 
-    /// Weighs that the rover senses no landmark where it stands, if that is so.
+    /// Weighs the belief by the absence of a landmark, if the rover senses none.
     pub(super) fn recognize(&mut self, here: Option<Landmark>) {
         if let (Some(belief), Some(goal), None) = (&mut self.belief, self.goal, here) {
             belief.weigh(|place| if place == goal { UNSENSED } else { 1.0 });
         }
     }
 
-    /// Returns the place where it is, if it knows.
+    /// Returns the robot's place, or `None` if it is not sure.
     fn here(&self) -> Option<PlaceId> {
         let places = self.belief.as_ref()?.places();
         let (place, chance) = *places.first()?;
         (chance >= SURE).then_some(place)
     }
 
-    /// Returns the likeliest place where the map tells no more places apart.
+    /// Returns the likeliest place if the map cannot tell the remaining places apart.
     fn likeliest(&self) -> Option<PlaceId> {
         let belief = self.belief.as_ref()?;
         let (place, _) = *belief.places().first()?;
@@ -167,7 +166,7 @@ impl RouteFinder {
         }
     }
 
-    /// Follows the shortest way from one place to another along what is not known to be shut.
+    /// Follows the shortest way from one place to another along ways not known to be shut.
     fn follow_plan(&mut self, from: PlaceId, to: PlaceId) -> Next {
         while let Some(direction) = self.first_step(from, to) {
             if self.exits[direction.index()] {
@@ -192,7 +191,7 @@ impl RouteFinder {
         Direction::ALL.get(action.0 as usize).copied()
     }
 
-    /// Returns a few words on its situation.
+    /// Returns a description of its situation in a few words.
     pub(super) fn words(&self) -> String {
         let places = self
             .belief
@@ -206,7 +205,7 @@ impl RouteFinder {
         }
     }
 
-    /// Makes the move that tells the likeliest places apart, or any.
+    /// Makes a move that tells the likeliest places apart, or any move if there is none.
     fn tell_apart(&mut self) -> Next {
         let belief = self.belief.as_ref();
         let telling = belief.and_then(|belief| belief.telling_action(&self.map));
@@ -251,7 +250,7 @@ struct OpenWays<'a> {
 }
 
 impl OpenWays<'_> {
-    /// Returns the actions that can be done at a place, with where they lead.
+    /// Returns the actions that are possible at a place, with their ends.
     fn of(&self, place: PlaceId) -> impl Iterator<Item = (Action, PlaceId)> {
         let open = move |link: &(LinkId, &Link)| !self.shut.contains(&(place, link.1.action));
         let links = self.paths.likely(place).filter(open);

@@ -14,7 +14,7 @@ pub struct RoutineConfig {
     pub doorway_width: Option<f64>,
     /// Turn of the robot in one time step at full rate, rad, > 0.
     pub turn_per_step: f64,
-    /// Way of the robot in one time step at full speed, m, > 0.
+    /// Distance that the robot covers in one time step at full speed, m, > 0.
     pub translate_per_step: f64,
     /// Largest error of odometry as a share of the distance, 0 … 0.5. Paper: "about 10% of
     /// distance travelled".
@@ -29,7 +29,7 @@ pub struct RoutineConfig {
 pub struct RoutineConfigError {
     /// Name of the field.
     pub field: &'static str,
-    /// Its value.
+    /// Value that was given.
     pub value: f64,
     /// Allowed values, in words.
     pub expected: &'static str,

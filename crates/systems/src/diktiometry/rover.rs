@@ -7,8 +7,8 @@ use tolman_maze::Direction;
 /// A robot whose control routines end at distinctive places.
 ///
 /// A [`Surveyor`](super::Surveyor) makes one of any robot that turns and translates between walls.
-/// Another robot needs no more than this to have its world mapped; an
-/// [`Odometer`](super::Odometer) makes a box of what its wheels and its compass say.
+/// For any other robot, implement this trait. An [`Odometer`](super::Odometer) turns odometry and
+/// compass into a box.
 pub trait Rover {
     /// Reason a routine cannot be carried out.
     type Error: Error + Send + Sync + 'static;

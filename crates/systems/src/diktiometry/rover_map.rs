@@ -10,7 +10,7 @@ use tolman_maze::Direction;
 
 use super::{Arrival, Rover};
 
-/// The map of a rover: makes the observer's moves of the rover's arrivals.
+/// The map of a rover: turns the rover's arrivals into the observer's moves.
 ///
 /// Action n of the map is direction n of [`Direction::ALL`].
 #[derive(Clone, Debug)]
@@ -30,7 +30,7 @@ pub struct MappedMove {
     pub report: StepReport,
 }
 
-/// Reason why a rover cannot be mapped any further.
+/// Reason why mapping cannot continue.
 #[derive(Debug, ThisError)]
 #[non_exhaustive]
 pub enum MapError<E: Error + 'static> {
@@ -46,7 +46,7 @@ pub enum MapError<E: Error + 'static> {
 }
 
 impl RoverMap {
-    /// Lets `rover` look and returns a map of the place it stands at alone.
+    /// Lets `rover` look and returns a map of its place alone.
     ///
     /// # Errors
     /// [`MapError`] if the rover sees nothing or `config` is out of its bounds.
@@ -60,8 +60,8 @@ impl RoverMap {
         })
     }
 
-    /// Lets `rover` look and continues an earlier map from where that map has it. If the rover is
-    /// elsewhere, places may be made twice until the observer finds out.
+    /// Lets `rover` look and continues an earlier map from its last place. If the rover is
+    /// elsewhere, places may be made twice until the observer notices.
     ///
     /// # Errors
     /// [`MapError::Robot`] if the rover sees nothing.
@@ -71,7 +71,7 @@ impl RoverMap {
         Ok(mapping)
     }
 
-    /// Returns a map whose rover has not looked yet: it sees no exits.
+    /// Returns a map whose rover has not looked yet, so that it knows no exits.
     pub(super) const fn of(observer: Observer) -> Self {
         Self {
             observer,
@@ -80,7 +80,7 @@ impl RoverMap {
         }
     }
 
-    /// Lets `rover` look which ways lead on from where it stands.
+    /// Lets `rover` look for the ways that lead on from its place.
     pub(super) fn look_round<R: Rover>(&mut self, rover: &mut R) -> Result<(), MapError<R::Error>> {
         let seen = rover.look().map_err(MapError::Robot)?;
         (self.exits, self.look) = (seen.exits, seen.look);
@@ -88,7 +88,7 @@ impl RoverMap {
     }
 
     /// Lets `rover` look, and returns whether it sees the same as when it stopped. Views are
-    /// compared if it has them, and ways that lead on if none is opened or shut in this world.
+    /// compared if it has any. Ways that lead on are compared if the world is static.
     pub(super) fn is_where_it_was<R: Rover>(
         &self,
         rover: &mut R,
@@ -131,7 +131,7 @@ impl RoverMap {
         &self.observer
     }
 
-    /// Returns the observer, to tell it of moves that no rover of ours made.
+    /// Returns the observer, to report moves that no rover of ours made.
     pub(super) const fn observer_mut(&mut self) -> &mut Observer {
         &mut self.observer
     }
@@ -148,7 +148,7 @@ pub(super) fn observed(config: &Config, direction: Direction, arrival: &Arrival)
     }
 }
 
-/// Returns the place that the rover looks at as the input of a mapper of this configuration.
+/// Returns the rover's place as the input of a mapper of this configuration.
 pub(super) fn first_place(config: &Config, seen: &Arrival) -> FirstPlace {
     FirstPlace {
         percept: percept(config, seen),
@@ -156,8 +156,8 @@ pub(super) fn first_place(config: &Config, seen: &Arrival) -> FirstPlace {
     }
 }
 
-/// Returns what the rover saw, if the map wants to know: a robot that does not look sees which ways
-/// lead on.
+/// Returns the view at an arrival, or `None` if the map uses no views. For a robot that does not
+/// look, the view is the ways that lead on.
 fn percept(config: &Config, arrival: &Arrival) -> Option<Signature> {
     if config.percepts == Percepts::None {
         return None;

@@ -13,9 +13,9 @@ use super::{
 };
 
 /// A robot with the paper's control routines: they follow corridors, end at corners and doorways,
-/// and measure the way.
+/// and measure their displacement.
 ///
-/// The robot may be a mutable reference: between two routines only the configuration is kept.
+/// The robot may be a mutable reference: only the configuration is kept between two routines.
 #[derive(Clone, Debug)]
 pub struct Surveyor<R, E> {
     robot: R,
@@ -84,8 +84,7 @@ where
         Ok(())
     }
 
-    /// Follows the corridor `direction` to the middle of whatever opens or narrows beside the way,
-    /// or to a wall.
+    /// Follows the corridor `direction` to the middle of the next opening or doorway, or to a wall.
     fn follow(&mut self, direction: Direction) -> Result<(), RoutineError<R::Error>> {
         let (gauge, ahead) = (self.config, heading_of(direction));
         let mut beside = Beside::at_start(self.view(ahead)?, &gauge);
@@ -131,8 +130,8 @@ where
         Ok(())
     }
 
-    /// Drives `distance`, m, keeping to the middle between the walls, and returns how far odometry
-    /// says it went, m.
+    /// Drives `distance`, m, keeping to the middle between the walls. Returns the distance by
+    /// odometry, m.
     fn drive(
         &mut self,
         ahead: Heading,
@@ -153,8 +152,8 @@ where
         self.command(turn.clamp(-0.2, 0.2), distance)
     }
 
-    /// Makes one time step and returns how far odometry says the robot went, m. Adds what odometry
-    /// and compass say of it to the box of this routine.
+    /// Makes one time step and returns its distance by odometry, m. Adds odometry and compass to
+    /// the box of this routine.
     fn command(&mut self, turn: f64, distance: f64) -> Result<f64, RoutineError<R::Error>> {
         let before = self.heading()?;
         let command = TurnTranslate {
@@ -179,7 +178,7 @@ where
         Ok(asked)
     }
 
-    /// Returns the heading, once compass and laser tell something.
+    /// Returns the heading, once compass and laser give readings.
     fn heading(&mut self) -> Result<Heading, RoutineError<R::Error>> {
         self.once_told(|this| {
             round_scan(this.robot.sensing())?;
@@ -187,8 +186,8 @@ where
         })
     }
 
-    /// Returns what `read` returns once the sensors tell it: a reading that did not come is waited
-    /// for, standing, for some time steps.
+    /// Returns the result of `read`. If a reading is missing, the robot stands still and waits for
+    /// it, up to [`MOST_SILENT`] time steps.
     fn once_told<T>(
         &mut self,
         read: impl Fn(&Self) -> Result<T, RoutineError<R::Error>>,
@@ -234,7 +233,7 @@ where
         })
     }
 
-    /// Returns what the place looks like: column 0 looks east.
+    /// Returns the signature of the place, whose column 0 looks east.
     fn signature(&self) -> Result<Option<Signature>, RoutineError<R::Error>> {
         let sensing = self.robot.sensing();
         let heading = compass(sensing)?;
@@ -279,8 +278,8 @@ where
     }
 
     /// Follows the corridor in `direction` to the next corner or doorway and returns the arrival.
-    /// It turns, drives between the walls, and stops before a wall, or in the middle of what opens
-    /// or narrows beside the way. It takes at most some thousand time steps.
+    /// It turns, drives between the walls, and stops before a wall or in the middle of an opening
+    /// or doorway. It takes at most some thousand time steps.
     fn go(&mut self, direction: Direction) -> Result<Arrival, Self::Error> {
         self.odometer.begin();
         let ahead = heading_of(direction);

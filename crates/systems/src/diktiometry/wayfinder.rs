@@ -9,8 +9,8 @@ use tolman_robot::{
 
 use super::{Eye, Next, RouteFinder, RoutineConfig, RoutineConfigError, RoutineError, Surveyor};
 
-/// A robot that was put down anywhere on a learned diktiometry: it finds out where it is and goes
-/// where it is sent. It never changes the map.
+/// A robot that was put down anywhere on a learned diktiometry: it localizes and goes to goals. It
+/// never changes the map.
 ///
 /// Its tasks:
 ///
@@ -19,7 +19,7 @@ use super::{Eye, Next, RouteFinder, RoutineConfig, RoutineConfigError, RoutineEr
 /// - **Reach** a place or a landmark: it localizes and follows the shortest way on the map. If that
 ///   leads elsewhere than on the map, it localizes again. A way that differed from the map is
 ///   avoided as long as there are others. It gives up if no place of the map has the landmark, or
-///   if nothing fits the map for long.
+///   if its moves do not fit the map for long.
 /// - **Explore**: it gives up. A [`Diktiometer`](super::Diktiometer) learns maps.
 ///
 /// `E` is the eye by which it tells places apart; the map's percepts have to fit it.
@@ -43,9 +43,8 @@ pub enum WayfinderError<E: Error + 'static> {
 }
 
 impl<E> Wayfinder<E> {
-    /// Returns a robot that knows the map of `observer`, but not where on it it is. `goal` is the
-    /// place where the landmark [`Goal`](Landmark::Goal) was sensed. `seed` is that of its random
-    /// walk.
+    /// Returns a robot that knows the map of `observer`, but not its place on it. `goal` is the
+    /// place where the landmark [`Goal`](Landmark::Goal) was sensed. `seed` seeds its random walk.
     #[must_use]
     pub fn new(
         routines: RoutineConfig,
@@ -73,7 +72,7 @@ impl<E> Mapper for Wayfinder<E> {
     type Observation = ObservedMove;
     type Error = ObservedMoveError;
 
-    /// Takes in a move that another made, if it stands at a place already.
+    /// Takes in a move made by another, if it stands at a place already.
     fn observe(&mut self, seen: &ObservedMove) -> Result<(), ObservedMoveError> {
         self.finder.take_in(seen);
         Ok(())

@@ -1,4 +1,4 @@
-//! Ends of the map: points that a robot can reach and has not been near.
+//! Finds the ends of the map: points that a robot can reach and has not been near.
 
 use core::f64::consts::TAU;
 
@@ -11,7 +11,7 @@ use super::route::Target;
 /// Number of directions in which each place is checked for more floor.
 const DIRECTIONS: u32 = 48;
 
-/// Distance from an explored point within which there is nothing more to look for, m.
+/// Distance from an explored point within which nothing is left to explore, m.
 const SAME: f64 = 0.3;
 
 /// Room that a robot needs to go on.
@@ -19,7 +19,7 @@ const SAME: f64 = 0.3;
 pub(super) struct Lane {
     /// Half the width of the lane in which nothing may stand, m.
     pub(super) half_width: f64,
-    /// Distance that it goes from a place, m.
+    /// Distance from the place to the lane's end, m.
     pub(super) reach: f64,
     /// Minimum distance of its target from any other place, m.
     pub(super) apart: f64,
@@ -56,13 +56,13 @@ fn is_clear(outline: &Outline, ahead: Vector, lane: Lane) -> bool {
     !seen.chain(heard).any(|point| lane.holds(ahead, point))
 }
 
-/// Returns where what a sensor met stands, as far as it tells.
+/// Returns the point at a sounding's range along its axis, in the robot's frame.
 fn end(sounding: &Sounding) -> Point {
     sounding.mount.transform(Point::new(sounding.range, 0.0))
 }
 
-/// Returns the turns, rad, after which nothing that the range sensors met stands ahead. Those that
-/// lead on come alone, if there are any, and else those that lead back. O(soundings).
+/// Returns the turns after which the range sensors' points leave the lane ahead clear, rad. If some
+/// of them lead on, those that lead back are left out. O(soundings).
 pub(super) fn ways_on(sensing: &impl Soundings, lane: Lane) -> Vec<f64> {
     let met = sensing.soundings();
     let met = met.filter(|sounding| sounding.range < 0.999 * sounding.max_range);
@@ -84,7 +84,7 @@ pub(super) fn ways_on(sensing: &impl Soundings, lane: Lane) -> Vec<f64> {
     if on.is_empty() { clear } else { on }
 }
 
-/// A turn by more leads back, rad.
+/// Turn above which a lane leads back, rad.
 const BACK: f64 = 2.3;
 
 impl Lane {

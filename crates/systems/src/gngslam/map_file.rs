@@ -31,7 +31,7 @@ pub struct MapFile {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MapFileError {
-    /// The header or the JSON is invalid, or names another system; or the map cannot be written as
+    /// The header or the JSON is invalid, names another system, or the map cannot be written as
     /// JSON.
     #[error(transparent)]
     File(#[from] FileError),
@@ -40,7 +40,7 @@ pub enum MapFileError {
         "a landmark was sensed at place {place}, which does not exist; the number of places is {places}: learn the map again"
     )]
     Sighting {
-        /// The place.
+        /// Number of the place.
         place: u32,
         /// Number of places.
         places: usize,
@@ -84,7 +84,7 @@ impl MapFile {
     /// Reads the text of a file.
     ///
     /// # Errors
-    /// [`MapFileError`] with the place and what to do about it.
+    /// [`MapFileError`] with the place and the repair.
     pub fn from_json(text: &str) -> Result<Self, MapFileError> {
         let (origin, body): (_, Body) = FILES.read(text)?;
         let places = body.graph.places().len();

@@ -6,17 +6,16 @@ use tolman_robot::{Mapper, Odometry, Scan, Snapshot, Sounding};
 
 use crate::places::{OfSites, Site, SiteStep, SiteWay};
 
-/// Tells a place graph of the places of a log: what the laser reads at each, and how the robot came
-/// there.
+/// Feeds a place graph with the places of a log: the scan at each, and the way to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PlaceGraphOfSites {
-    /// The map.
+    /// Parameters of the map.
     pub map: PlaceGraphConfig,
 }
 
 impl PlaceGraphOfSites {
-    /// Returns the values for offices, and scans matched to those before.
+    /// Returns the values for offices and matched scans.
     #[must_use]
     pub const fn indoor() -> Self {
         let mut config = PlaceGraphConfig::indoors();
@@ -52,8 +51,7 @@ impl OfSites for PlaceGraphOfSites {
     }
 }
 
-/// Returns what the wheels of a robot would have rolled that made a step: a turn, a straight way, a
-/// turn.
+/// Returns the odometry of a robot that made a step: a turn, a straight way, a turn.
 fn rolled(step: &SiteStep) -> [Odometry; 3] {
     let Pose { position, heading } = step.moved;
     let distance = position.coords.norm();
@@ -79,7 +77,7 @@ fn rolled(step: &SiteStep) -> [Odometry; 3] {
     [turn(first), straight, turn(last)]
 }
 
-/// Returns what a laser reads that looks all round, turned against the robot by `turned`, rad.
+/// Returns the snapshot of a laser that looks all round, turned against the robot by `turned`, rad.
 fn snapshot(around: &Scan, turned: f64) -> Snapshot {
     let sounding = |(beam, range): (u32, &f64)| Sounding {
         mount: Pose::new(

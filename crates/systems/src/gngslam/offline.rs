@@ -1,4 +1,4 @@
-//! The paper's system: records first, then a map of all of them.
+//! Gathers records first and then learns a map from all of them: the paper's system.
 
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
@@ -81,7 +81,7 @@ pub struct OfflineSlam {
     learned: Option<Learned>,
 }
 
-/// A map, and the node that each record is nearest to.
+/// A map, and the nearest node of each record.
 #[derive(Clone, Debug)]
 struct Learned {
     map: PlaceMap,

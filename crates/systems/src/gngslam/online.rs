@@ -1,4 +1,4 @@
-//! The system that corrects its pose while it learns (the paper's section 6).
+//! Learns and corrects the robot's pose at the same time (the paper's section 6).
 
 use core::f64::consts::PI;
 
@@ -24,11 +24,11 @@ use crate::stream;
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct OnlineSlamConfig {
-    /// Parameters of driving. A leg is one piece of the way: it looks after each.
+    /// Parameters of driving. A leg is one piece of the way; the robot looks after each.
     pub drive: UntilNearConfig,
     /// Maximum turn before the robot looks again, rad.
     pub turn_piece: f64,
-    /// Number of looks round the place where it is put down, before it drives.
+    /// Number of looks round the first place, before it drives.
     pub first_looks: u32,
     /// Choice of the next goal while exploring.
     pub explore: ExplorationPolicy,
@@ -40,10 +40,10 @@ pub struct OnlineSlamConfig {
     pub lane: f64,
     /// Maximum number of time steps to stand still for a snapshot, at least 1.
     pub patience: u32,
-    /// Distance at which the robot has come to a place, m.
+    /// Distance within which the robot is at a place, m.
     pub arrival: f64,
-    /// Factor of its limits where it has driven before, 0 to 1: it got through there, however near
-    /// the walls are.
+    /// Factor of its limits on ways that it has driven before, 0 to 1: it fits through there,
+    /// however near the walls are.
     pub give_way: f64,
     /// Parameters of mapping.
     pub map: PlaceGraphConfig,
@@ -142,15 +142,15 @@ pub struct OnlineSlam {
     quiet: u32,
     /// Positions where landmarks were sensed.
     sightings: Vec<LandmarkSighting>,
-    /// Places that it came back to and did not sense the goal at.
+    /// Places where it came back and did not sense the goal.
     tried: Vec<u32>,
     route: Option<Route>,
     obstacles: Obstacles,
-    /// Frontier that the robot goes to.
+    /// Frontier to which the robot goes.
     frontier: Option<Frontier>,
-    /// Whether the floor goes on nowhere beyond the map, as far as it knows.
+    /// Whether no frontier is left, as far as the robot knows.
     ends_here: bool,
-    /// Points that it came to, or could not come to, in the map's frame.
+    /// Points that it reached, or could not reach, in the map's frame.
     explored: Vec<Point>,
     /// Whether it touched something in the action under way.
     has_touched: bool,
@@ -158,15 +158,15 @@ pub struct OnlineSlam {
     retries: u32,
 }
 
-/// A point that it goes to, to explore.
+/// A point to explore.
 #[derive(Clone, Copy, Debug)]
 struct Frontier {
     target: Target,
-    /// Pieces of the way that are left until it is given up.
+    /// Number of pieces of the way after which it is given up.
     patience: u32,
 }
 
-/// Pieces of the way after which a point that it goes to, to explore, is given up.
+/// Initial number of pieces of the way after which a point to explore is given up.
 const PATIENCE: u32 = 60;
 
 /// Number of times that unreachable points are tried again.
@@ -175,7 +175,7 @@ const RETRIES: u32 = 2;
 /// Pieces that a blocked way counts as.
 const BLOCKED: u32 = 20;
 
-/// Extra distance that it goes beyond a place, m.
+/// Extra distance that a lane extends beyond a place, m.
 const BEYOND: f64 = 0.05;
 
 /// Number of time steps that it drives away from something it has touched.
@@ -185,8 +185,8 @@ const STEPS_FREE: u32 = 4;
 const LEAST_TURN: f64 = 0.5;
 
 impl OnlineSlam {
-    /// Returns a system without a map, whose robot has just been put down. `seed` is that of all
-    /// its turns.
+    /// Returns a system without a map, whose robot has just been put down. `seed` seeds all its
+    /// turns.
     #[must_use]
     pub fn new(config: OnlineSlamConfig, seed: u64) -> Self {
         Self::on(PlaceGraph::new(config.map), config, seed)
@@ -261,7 +261,7 @@ impl OnlineSlam {
         &self.map
     }
 
-    /// Takes note that the robot has been lifted and put down, perhaps elsewhere.
+    /// Takes in that the robot has been lifted and put down, perhaps elsewhere.
     pub fn put_down(&mut self) {
         self.was_put_down = true;
         self.looks_round = self.config.first_looks;
@@ -270,20 +270,18 @@ impl OnlineSlam {
         self.rolled.clear();
     }
 
-    /// Returns whether it goes where the floor goes on: once it has looked round.
+    /// Returns whether the robot goes to frontiers: once it has looked round.
     fn goes_beyond(&self) -> bool {
         self.config.explore == ExplorationPolicy::ToTheUnknown && self.looks_round == 0
     }
 
-    /// Returns whether it has looked for long without finding a place, and knows of nowhere else to
-    /// look.
+    /// Returns whether it has found no place for many looks, and has no frontier left.
     fn has_explored(&self) -> bool {
         let is_quiet = self.quiet >= self.config.quiet_looks;
         is_quiet && (self.ends_here || self.config.explore == ExplorationPolicy::ByChance)
     }
 
-    /// Goes on a little: round, or straight on until something is near and then elsewhere by
-    /// chance.
+    /// Wanders a little: looks round, or drives straight on until something is near and then turns.
     fn wander<R>(&mut self, robot: &mut R) -> Result<(), R::Error>
     where
         R: Robot<Command = TurnTranslate>,
@@ -315,7 +313,7 @@ impl OnlineSlam {
         if self.rng.random() { angle } else { -angle }
     }
 
-    /// Returns what it needs to go on beyond a place.
+    /// Returns the room that the robot needs to go on beyond a place.
     fn lane(&self) -> Lane {
         let apart = self.config.map.place_distance;
         Lane {
@@ -325,7 +323,7 @@ impl OnlineSlam {
         }
     }
 
-    /// Drives a piece of the way, as far as nothing is near.
+    /// Drives a piece of the way, up to where something is near.
     fn drive<R>(&mut self, robot: &mut R) -> Result<LegEnd, R::Error>
     where
         R: Robot<Command = TurnTranslate>,
@@ -340,7 +338,7 @@ impl OnlineSlam {
         Ok(end)
     }
 
-    /// Makes a piece of the turn under way.
+    /// Makes a piece of the turn in progress.
     fn turn_on<R>(&mut self, robot: &mut R) -> Result<(), R::Error>
     where
         R: Robot<Command = TurnTranslate>,
@@ -353,8 +351,8 @@ impl OnlineSlam {
         self.turn_by(robot, piece)
     }
 
-    /// Turns in place by `angle`, rad, counter-clockwise, by the wheels. If it touches something,
-    /// it drives free of that instead.
+    /// Turns in place by `angle`, rad, counter-clockwise, by odometry. If the robot touches
+    /// something, it drives free instead.
     fn turn_by<R>(&mut self, robot: &mut R, angle: f64) -> Result<(), R::Error>
     where
         R: Robot<Command = TurnTranslate>,
@@ -390,7 +388,7 @@ impl OnlineSlam {
         Err(OnlineSlamError::NoSnapshot { steps })
     }
 
-    /// Notes the place nearest to a landmark that the robot senses.
+    /// Records the place nearest to a landmark that the robot senses.
     fn remember(&mut self, landmark: Option<Landmark>) {
         let (Some(landmark), Some(here), true) =
             (landmark, self.map.here(), self.map.is_localized())
@@ -410,7 +408,7 @@ impl OnlineSlam {
         }
     }
 
-    /// Returns where a goal lies on the map.
+    /// Returns the target of a goal on the map, or `None` if the map does not have it.
     fn target(&self, goal: Goal) -> Option<Target> {
         match goal {
             Goal::Place(place) => {
@@ -434,8 +432,7 @@ impl OnlineSlam {
         }
     }
 
-    /// Goes a piece of the way to where the floor goes on beyond the map; `false` if there is
-    /// nothing like that.
+    /// Goes a piece of the way to a frontier. Returns `false` if there is none.
     fn go_beyond<R>(&mut self, robot: &mut R, here: Pose) -> Result<bool, R::Error>
     where
         R: Robot<Command = TurnTranslate>,

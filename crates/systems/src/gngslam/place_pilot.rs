@@ -15,9 +15,9 @@ use super::{Wanderer, WandererError};
 pub struct PlacePilotConfig {
     /// Parameters of driving between two looks.
     pub drive: UntilNearConfig,
-    /// Distance by its odometry at which it has come to a node, m.
+    /// Distance by odometry within which it has reached a node, m.
     pub arrival: f64,
-    /// Angle by which the pilot goes round what is in the way, rad.
+    /// Angle by which the pilot turns to go round an obstacle, rad.
     pub round: f64,
 }
 
@@ -63,7 +63,7 @@ pub struct PlacePilot<'a> {
     goal: UnitId,
     /// Side on which it passes the next obstacle: 1 for left.
     side: f64,
-    /// Nodes that it came near to since it was sent out.
+    /// Nodes that it came near to since the drive began.
     passed: Vec<UnitId>,
 }
 
@@ -81,8 +81,8 @@ impl<'a> PlacePilot<'a> {
         }
     }
 
-    /// Drives a piece of the way with a robot whose dead reckoning `wanderer` keeps. Returns the
-    /// state of the task, which is done when the wheels have the robot at the goal.
+    /// Drives a piece of the way. `wanderer` keeps the robot's dead reckoning. Returns the standing
+    /// of the task, which is done when the robot is at the goal by odometry.
     ///
     /// # Errors
     /// [`PlacePilotError`] if the robot fails or takes no snapshot, or the map is of another robot.
@@ -129,7 +129,7 @@ impl<'a> PlacePilot<'a> {
         position.is_some_and(|position| (position - at.position).norm() <= self.config.arrival)
     }
 
-    /// Turns towards a point and drives a leg; where something is in the way it goes round that.
+    /// Turns towards a point and drives a leg, round an obstacle if there is one.
     fn go_towards<R>(
         &mut self,
         robot: &mut R,

@@ -28,10 +28,10 @@ pub(super) struct Route {
 pub(super) struct Obstacles(BTreeMap<(u32, u32), u32>);
 
 impl Obstacles {
-    /// Increase of the factor of a link's length each time that something was in the way.
+    /// Increase of the factor on a link's length for each obstacle met on it.
     const DETOUR: f64 = 4.0;
 
-    /// Notes that something was in the way.
+    /// Records an obstacle on a link.
     pub(super) fn note(&mut self, (a, b): (u32, u32)) {
         *self.0.entry((a.min(b), a.max(b))).or_default() += 1;
     }
@@ -41,8 +41,8 @@ impl Obstacles {
         1.0 + Self::DETOUR * f64::from(times.copied().unwrap_or_default())
     }
 
-    /// Returns the links of a map, each as long as its places lie apart, mm, and longer where
-    /// something was in the way. O(links).
+    /// Returns the links of a map with their lengths, mm: the distance of their places, and more
+    /// where obstacles were met. O(links).
     fn links(&self, map: &PlaceGraph) -> Arcs {
         let poses = map.poses().poses();
         let position = |place: u32| poses.get(place as usize).map(|pose| pose.position);
@@ -71,8 +71,8 @@ impl Obstacles {
 }
 
 impl Route {
-    /// Returns the shortest way from the place nearest to `here`, as far as nothing was in the way
-    /// of it; `None` if none is known. O(links log places).
+    /// Returns the shortest way from the place nearest to `here`, with obstacles making links
+    /// longer; `None` if none is known. O(links log places).
     pub(super) fn find(
         map: &PlaceGraph,
         here: Point,
@@ -94,7 +94,7 @@ impl Route {
         })
     }
 
-    /// Returns the places that it leads over.
+    /// Returns the places on the way.
     pub(super) fn places(&self) -> impl Iterator<Item = u32> + '_ {
         self.ahead.iter().skip(1).rev().map(|(place, _)| *place)
     }
@@ -111,7 +111,7 @@ impl Route {
         self.ahead.last().map(|(_, point)| *point)
     }
 
-    /// Returns the link under way: the place that was passed last, and the next one.
+    /// Returns the link in progress: the place that was passed last, and the next one.
     pub(super) fn link(&self) -> Option<(u32, u32)> {
         let (next, _) = self.ahead.last()?;
         Some((self.passed, *next))

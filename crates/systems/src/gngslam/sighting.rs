@@ -8,16 +8,17 @@ use super::route::Target;
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LandmarkSighting {
-    /// The landmark.
+    /// Landmark that was sensed.
     pub landmark: Landmark,
-    /// Place nearest to where the landmark was sensed.
+    /// Place nearest to the position where the landmark was sensed.
     pub place: u32,
     /// Position at which the landmark was sensed, in the place's frame, m.
     pub at: Point,
 }
 
 impl LandmarkSighting {
-    /// Returns where it was sensed, in the map's frame; `None` if the map has no such place.
+    /// Returns the point where it was sensed, in the map's frame; `None` if the map has no such
+    /// place.
     fn target(&self, map: &PlaceGraph) -> Option<Target> {
         let place = map.poses().poses().get(self.place as usize)?;
         Some(Target {
@@ -27,9 +28,9 @@ impl LandmarkSighting {
     }
 }
 
-/// Returns where to go to sense a landmark again: the middle of all points where it was sensed.
-/// Places in `tried`, where the robot came back and did not sense it, are left out. `None` if there
-/// are no others. O(sightings).
+/// Returns the target at which to sense a landmark again: the sighting nearest to the middle of
+/// all. Places in `tried`, where the robot came back and did not sense it, are left out. `None` if
+/// there are no others. O(sightings).
 pub(super) fn amid(
     sightings: &[LandmarkSighting],
     wanted: Landmark,

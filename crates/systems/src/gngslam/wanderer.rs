@@ -16,8 +16,8 @@ use crate::stream;
 pub struct WandererConfig {
     /// Parameters of driving and turning.
     pub drive: UntilNearConfig,
-    /// Smallest share of the limit ahead up to which it goes, 0 to 1. The share of each leg is
-    /// drawn between this value and 1; at 1, the paper's value, it is always the limit.
+    /// Minimum of the share of the limit ahead at which a leg ends, 0 to 1. The share of each leg
+    /// is drawn between this value and 1; at 1, the paper's value, it is always the limit.
     pub nearest: f64,
     /// Minimum length of a leg, m; a shorter one is followed by another before a record is taken.
     /// Ours: 0.3.
@@ -25,15 +25,15 @@ pub struct WandererConfig {
     /// Number of legs that the robot tries before it takes a record wherever it is, at least 1.
     /// Ours: 12.
     pub most_tries: u32,
-    /// Factor of all thresholds each time that no direction is free, 0 to 1. Ours: 0.7.
+    /// Factor on all thresholds each time that no direction is free, 0 to 1. Ours: 0.7.
     pub give_way: f64,
     /// Maximum number of time steps to stand still for a snapshot, at least 1. Ours: 10.
     pub patience: u32,
 }
 
 impl WandererConfig {
-    /// Returns the paper's way of gathering data (section 3.2) on the Pioneer 2-DX; the values that
-    /// it leaves open are ours.
+    /// Returns the paper's parameters for gathering data (section 3.2) with the Pioneer 2-DX.
+    /// Values that the paper leaves open are ours.
     #[must_use]
     pub const fn paper() -> Self {
         Self {
@@ -46,9 +46,9 @@ impl WandererConfig {
         }
     }
 
-    /// Returns the same configuration, except that for every record the robot goes up to things by
-    /// a random distance: 0.22 to 1.1 m. So it gets to the edge of the floor, which the paper's
-    /// limits only let it follow. Ours.
+    /// Returns the same configuration, except that the robot approaches things to a random distance
+    /// for every record: 0.22 to 1.1 m. So it reaches the edge of the floor, along which the
+    /// paper's limits only let it drive. Ours.
     #[must_use]
     pub const fn near_and_far() -> Self {
         Self {
@@ -92,7 +92,7 @@ pub struct Wanderer {
 const BACK_OFF: u32 = 4;
 
 impl Wanderer {
-    /// Returns a wanderer whose robot has just been put down. `seed` is that of all its turns.
+    /// Returns a wanderer whose robot has just been put down. `seed` seeds all its turns.
     #[must_use]
     pub fn new(config: WandererConfig, seed: u64) -> Self {
         Self {
@@ -103,15 +103,15 @@ impl Wanderer {
         }
     }
 
-    /// Returns the robot's pose by its wheels, from where it was put down.
+    /// Returns the robot's pose by odometry, relative to the pose where it was put down.
     #[must_use]
     pub const fn odometry(&self) -> Pose {
         self.odometry
     }
 
-    /// Drives one leg, or more where they are short, and returns the record of the place where it
-    /// ended. It takes at most [`most_tries`](WandererConfig::most_tries) legs and turns, each with
-    /// a bound on its time steps.
+    /// Drives one leg, or several short ones, and returns the record of the place at its end. It
+    /// takes at most [`most_tries`](WandererConfig::most_tries) legs and turns, each with a bound
+    /// on its time steps.
     ///
     /// # Errors
     /// [`WandererError`] if the robot fails or takes no snapshot.
@@ -157,7 +157,7 @@ impl Wanderer {
         Ok(end)
     }
 
-    /// Returns a robot whose every step is added to where the wheels have it.
+    /// Returns a robot that adds the odometry of every step to the wanderer's pose.
     pub(super) fn reckoned<'a, R>(&'a mut self, robot: R) -> Reckoned<R, impl FnMut(Odometry) + 'a>
     where
         R: Robot<Sensing: Rolls> + 'a,
@@ -201,8 +201,8 @@ mod tests {
 
     use super::*;
 
-    /// A robot on a plain with one wall in the east, which it hears ahead; its sensors come on
-    /// `late` steps after it stands.
+    /// A robot on a plain with one wall in the east, which it hears ahead. Its sensors give
+    /// readings only `late` steps after it stops.
     struct Plain {
         pose: Pose,
         late: u32,

@@ -1,4 +1,4 @@
-//! The proof that no second run takes fewer steps.
+//! Proves that no second run takes fewer steps.
 
 use tolman_maps::wall_map::WallMap;
 use tolman_maze::{Cell, Grid, Knowledge, Wall, Walls};
@@ -25,9 +25,9 @@ pub struct Certificate {
     pub walls: Vec<(Wall, Knowledge)>,
     /// The cells the run stops on, from the start to a goal.
     pub run: Vec<Cell>,
-    /// The steps of the best run that is certain: those of `run`.
+    /// Number of steps of the best certain run: those of `run`.
     pub closed_cost: u32,
-    /// The steps of the best run that can be hoped for.
+    /// Number of steps of the best run that can be hoped for.
     pub open_cost: u32,
     /// Lower bound of the steps to a goal from every cell, by [`Grid::index`].
     pub at_least: Vec<u32>,

@@ -11,7 +11,8 @@ use tolman_maze::{Cell, Grid};
 #[derive(Clone, Debug)]
 pub struct Certify(Explorer);
 
-/// Most mazes have 16 × 16 cells, and take half the room.
+/// Search with or without rollouts. Most mazes have 16 × 16 cells; for them `Small` takes half the
+/// memory of `Large`.
 #[derive(Clone, Debug)]
 enum Explorer {
     Plain(MoveExplorer<SIDE>),
@@ -20,8 +21,8 @@ enum Explorer {
 }
 
 impl Certify {
-    /// Returns a search in a maze of the size of `grid`, for runs from `start`, by a mouse that has
-    /// seen nothing. `rollouts` is `None` to search without rollouts.
+    /// Returns a search in a maze of the size of `grid`, for runs from `start`, by a mouse without
+    /// observations. `rollouts` is `None` to search without rollouts.
     ///
     /// # Errors
     /// If a weight is out of its range.
@@ -47,8 +48,8 @@ impl Certify {
 }
 
 impl Certify {
-    /// Returns the same search with rollouts, but it stops as soon as the rest of the proof is
-    /// expected to cost more than it gains.
+    /// Returns the same search with rollouts. It stops as soon as the rest of the proof is expected
+    /// to cost more than it gains.
     ///
     /// # Errors
     /// If a weight is out of its range.

@@ -1,7 +1,7 @@
-//! The competition model of the micromouse: explore, prove, run as fast as can be.
+//! Explores as a competition micromouse: explore, prove, and run as fast as possible.
 //!
 //! [`speed_run`](tolman_planners::speed_run) explains how the mouse decides. Here it keeps its map
-//! and its place, and answers each reading of its wall sensors with where to drive.
+//! and its place, and answers each reading of its wall sensors with a direction to drive.
 //!
 //! ```
 //! use tolman_maze::{Cell, Direction, Grid};
@@ -41,19 +41,19 @@ use super::Brief;
 /// Result of an exploration.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SpeedRunExploration {
-    /// Number of moves from a cell to the next, from the start to the goal, wherever else, and back
-    /// to the start.
+    /// Number of moves from cell to cell: from the start to the goal, during the proof, and back to
+    /// the start.
     pub cells: u32,
     /// Number of these cells until the mouse was first at a goal.
     pub search_cells: u32,
-    /// Number of these cells from there until the run was known to be the fastest; the rest is the
-    /// way home.
+    /// Number of these cells from the goal until the run was known to be the fastest. The rest is
+    /// the way home.
     pub proof_cells: u32,
     /// The run that the mouse found. If no run leads ahead from the start, its heading differs from
     /// that of the [`Brief`]. The mouse then turns clockwise to the next side from which a run
     /// leads to a goal.
     pub certificate: SpeedRunCertificate,
-    /// The moves of that run, with where each begins and how long it takes.
+    /// Moves of that run, each with its beginning and its duration.
     pub run: Vec<RunLeg>,
     /// Verdict of the checker, which sees only the walls that the mouse knows.
     pub verdict: Result<(), SpeedRunCertificateError>,
@@ -62,7 +62,7 @@ pub struct SpeedRunExploration {
 /// A move of a speed run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RunLeg {
-    /// The step, and where it begins.
+    /// Step, with its beginning.
     pub step: RunStep,
     /// Duration, ms.
     pub time_ms: u16,
@@ -72,7 +72,7 @@ pub struct RunLeg {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ExploreError {
-    /// The mouse cannot be driven like that.
+    /// The mouse's driving parameters are invalid.
     #[error("the configuration of the mouse is invalid")]
     Config(#[from] SpeedRunConfigError),
     /// The maze has more than 32 columns or rows.
@@ -98,7 +98,7 @@ pub enum CompetitionNext {
     Finished(SpeedRunExploration),
 }
 
-/// A mouse that looks at the walls of its cell and remembers all.
+/// A mouse that looks at the walls of its cell and remembers them all.
 #[derive(Clone, Debug)]
 pub struct CompetitionMouse<'a, const N: usize> {
     brief: &'a Brief,
@@ -116,7 +116,7 @@ pub struct CompetitionMouse<'a, const N: usize> {
 }
 
 impl<'a, const N: usize> CompetitionMouse<'a, N> {
-    /// Returns a mouse at the start that has seen nothing. `times` are those of `config`.
+    /// Returns a mouse at the start without observations. `times` are those of `config`.
     ///
     /// # Errors
     /// If the maze is larger than `N` × `N`.
@@ -142,11 +142,11 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
     }
 
     /// Returns the next action in the cell where the mouse stands. `open` says which of its sides
-    /// no wall closes, in the order of [`Direction::ALL`]. O(n) for n cells, and a search where the
+    /// no wall closes, in the order of [`Direction::ALL`]. O(n) for n cells, and a search if the
     /// run hoped for is closed.
     ///
     /// # Errors
-    /// If the walls contradict what was seen before, or no way leads to a goal.
+    /// If the walls contradict earlier observations, or no way leads to a goal.
     pub fn next(&mut self, open: [bool; 4]) -> Result<CompetitionNext, ExploreError> {
         self.walls.observe(self.at, &rays(open))?;
         loop {
@@ -162,7 +162,8 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
         }
     }
 
-    /// Notes when the mouse was first at a goal, and when it first knew its run to be the fastest.
+    /// Records the moments at which the mouse was first at a goal, and first knew its run to be the
+    /// fastest.
     fn note_stage(&mut self) {
         let stage = self.explorer.stage();
         if stage != ExploreStage::Search {
@@ -173,8 +174,8 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
         }
     }
 
-    /// Turns to the next side that may be open, clockwise, as no run leads ahead from the start. A
-    /// person puts the mouse down in that direction.
+    /// Turns to the next side that may be open, clockwise, because no run leads ahead from the
+    /// start. A person puts the mouse down in that direction.
     fn turn_round(&mut self) -> Result<(), ExploreError> {
         let start = self.brief.start;
         let mut next = self.run_heading.right();
@@ -229,7 +230,7 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
     }
 }
 
-/// Returns what sensors see that look no farther than the walls of their own cell.
+/// Returns the rays of sensors that look no farther than the walls of their own cell.
 fn rays(open: [bool; 4]) -> [CellRay; 4] {
     Direction::ALL.map(|side| match open[side.index()] {
         true => CellRay::out_of_range(side, 1),

@@ -21,7 +21,7 @@ pub struct CounterSearch {
 }
 
 impl CounterSearch {
-    /// Returns a search that ends once `threshold_percent` of the cells were visited, and a goal.
+    /// Returns a search that ends once `threshold_percent` of the cells and a goal were visited.
     #[must_use]
     pub const fn new(threshold_percent: u32, rng: ChaCha8Rng) -> Self {
         Self {

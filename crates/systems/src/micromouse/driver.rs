@@ -1,4 +1,4 @@
-//! The part that all our mice share: the map, the place, the two runs.
+//! The common part of all our mice: map, place and both runs.
 
 use tolman_maps::wall_map::{CellRay, ClosedCells, WallMap};
 use tolman_maze::{Cell, Direction, Walls};
@@ -12,7 +12,7 @@ pub trait Search {
     /// Returns the next action in the first run.
     ///
     /// # Errors
-    /// If the maze is larger than what the search holds.
+    /// If the maze is larger than the search can hold.
     fn next(&mut self, view: &SearchView<'_>) -> Result<Next, TooLarge>;
 }
 
@@ -25,7 +25,7 @@ impl<S: Search + ?Sized> Search for Box<S> {
 /// Input of a search.
 #[derive(Debug)]
 pub struct SearchView<'a> {
-    /// Known walls, and how often the mouse has been in each cell.
+    /// Known walls, and the number of visits to each cell.
     pub map: &'a WallMap<SIDE>,
     /// Cell of the mouse.
     pub at: Cell,
@@ -57,7 +57,7 @@ pub struct Driver<S> {
     brief: Brief,
     at: Cell,
     heading: Direction,
-    /// The second run, what is left of it last first, or `None` in the first.
+    /// Rest of the second run, its last leap first; `None` in the first run.
     plan: Option<Vec<Leap>>,
     certificate: Option<Certificate>,
 }
@@ -122,10 +122,10 @@ impl<S: Search> Driver<S> {
         Ok(Order::RESET)
     }
 
-    /// Returns the next order, given what the sensors see now. Called once a step.
+    /// Returns the next order, given the present reading of the sensors. Called once per step.
     ///
     /// # Errors
-    /// If the mouse is at a loss.
+    /// If the mouse cannot decide.
     pub fn next(&mut self, sight: Sight) -> Result<Order, MouseError> {
         if let Some(plan) = &mut self.plan {
             let leap = plan.pop().ok_or(MouseError::Stuck)?;

@@ -1,4 +1,4 @@
-//! Walls of a grid as a map of places.
+//! Converts the walls of a grid to a map of places.
 
 use tolman_geom::Point;
 use tolman_maze::{Cell, Direction, Knowledge, Walls};
@@ -6,8 +6,8 @@ use tolman_robot::{Landmark, MapLink, MapPlace, MapView};
 
 use super::Brief;
 
-/// Returns the map whose places are the cells known to be open to some side, and the start; its
-/// links are the openings. `middle` is where the middle of a cell lies. O(cells).
+/// Returns the map whose places are the start and the cells with a known opening; its links are the
+/// openings. `middle` gives the middle of a cell. O(cells).
 pub(super) fn grid_map(
     walls: &impl Walls,
     brief: &Brief,
@@ -34,7 +34,7 @@ pub(super) fn grid_map(
     map
 }
 
-/// Returns the number of the place that a cell is on the map.
+/// Returns the number of a cell's place on the map.
 pub(super) fn place_of(brief: &Brief, cell: Cell) -> u32 {
     brief.grid.index(cell) as u32
 }

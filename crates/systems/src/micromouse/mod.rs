@@ -1,14 +1,14 @@
 //! The mice of "Plot and Navigate a Virtual Maze" (Wang), and of the competitions.
 //!
-//! A [`Brief`] is all that a mouse is told of a maze; none of them sees a wall but by its sensors.
-//! In the paper's rules a mouse, a [`Driver`], is told what its three sensors see and answers with
+//! A [`Brief`] is all that a mouse is told of a maze; it learns the walls only by its sensors. In
+//! the paper's rules a mouse, a [`Driver`], gets the readings of its three sensors and answers with
 //! an [`Order`]. In its first run it explores. Once it has been at the goal it may ask to be put
 //! back at the start for its second run.
 //!
 //! A [`Driver`] has a [`Search`] for its first run and a plan for its second, [`RunTwo`].
 //! [`Certify`] stops when the best run is proven and hands out a [`Certificate`]; [`TargetSearch`],
-//! [`CounterSearch`] and [`RandomSearch`] are the paper's; [`WholeMaze`] goes everywhere. A
-//! [`Searcher`] is one of them by name.
+//! [`CounterSearch`] and [`RandomSearch`] are the paper's; [`WholeMaze`] visits every cell. A
+//! [`Searcher`] names one of them.
 //!
 //! [`system`] puts the searches behind the interface of all systems, to drive a robot with a laser
 //! ring. [`noisy`] is the same mouse for wheels that slip and sensors that err, with a particle

@@ -1,9 +1,9 @@
-//! The interface of a mouse to the referee.
+//! Defines the interface between a mouse and the referee.
 
 use tolman_maps::wall_map::{ObserveError, TooLarge};
 use tolman_planners::moves::MoveExplorerConfigError;
 
-/// Maximum size of a maze that our mice hold, columns or rows.
+/// Maximum number of columns or rows of a maze that our mice can hold.
 pub const SIDE: usize = 32;
 
 /// Reading of the three sensors of a mouse: the number of open cells up to the next wall.
@@ -17,7 +17,7 @@ pub struct Sight {
     pub right: u16,
 }
 
-/// Reason why a mouse does not know what to do.
+/// Reason why a mouse cannot decide.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MouseError {
@@ -27,7 +27,7 @@ pub enum MouseError {
     /// The reading is impossible at the mouse's believed place.
     #[error("the mouse has lost its way")]
     Observe(#[from] ObserveError),
-    /// The mouse cannot search with these weights, or choose among stops with these values.
+    /// The weights of the search, or the values for choosing among stops, are invalid.
     #[error(transparent)]
     Config(#[from] MoveExplorerConfigError),
     /// No way leads to a goal.

@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 use tolman_planners::moves::MouseStep;
 
-/// The answer of a mouse to what its sensors see: a rotation, then a movement.
+/// Answer of a mouse to a reading of its sensors: a rotation, then a movement.
 ///
 /// It is written as the paper's test program takes it, with one key for each:
 ///
@@ -42,7 +42,7 @@ pub enum Rotation {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum Movement {
-    /// Cells ahead, or back where negative. The referee moves the mouse by three at most.
+    /// Number of cells ahead, or back if negative. The referee moves the mouse by three at most.
     Cells(i32),
     /// Half of a reset.
     Reset(Reset),
@@ -51,12 +51,12 @@ pub enum Movement {
 /// The word `Reset`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Reset {
-    /// The only one there is.
+    /// Order to be put back to the start.
     Reset,
 }
 
 impl Order {
-    /// The end of the first run, once the mouse has been at the goal: put me back to the start.
+    /// End of the first run, once the mouse has been at the goal: put it back to the start.
     pub const RESET: Self = Self {
         rotation: Rotation::Reset(Reset::Reset),
         movement: Movement::Reset(Reset::Reset),
@@ -78,11 +78,11 @@ impl From<MouseStep> for Order {
     }
 }
 
-/// An order that the paper's test program breaks off at.
+/// Reason why the paper's test program breaks off at an order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum OrderError {
-    /// A movement is a number, or the rotation is `Reset` too.
+    /// Only one of rotation and movement is `Reset`.
     #[error(
         "the movement is \"Reset\" but the rotation is {degrees}: say \"Reset\" for both, or a number of cells"
     )]

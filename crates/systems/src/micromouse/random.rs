@@ -20,7 +20,7 @@ pub struct RandomSearch {
 const KNOWN_PERCENT: u32 = 75;
 
 impl RandomSearch {
-    /// Returns a search that nothing is known to.
+    /// Returns a search without observations.
     #[must_use]
     pub const fn new(rng: ChaCha8Rng) -> Self {
         Self {

@@ -1,4 +1,4 @@
-//! From what is known to the second run.
+//! Plans the second run from the known walls.
 
 use tolman_maze::Cell;
 use tolman_planners::moves::{Leap, MoveMap};
@@ -11,7 +11,7 @@ use super::SIDE;
 pub enum RunTwo {
     /// The fewest steps.
     FewestMoves,
-    /// The path of fewest steps among those of fewest cells. In the paper, section 3.3.2, that is
+    /// The path of fewest steps among the paths of fewest cells. In the paper, section 3.3.2, it is
     /// the value map of A* and, of several shortest paths, "the one with minimum moves".
     FewestCells,
 }

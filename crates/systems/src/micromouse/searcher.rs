@@ -16,7 +16,7 @@ use super::{
 pub enum Searcher {
     /// Ours, until the best run is proven.
     Certify,
-    /// The same search, but until the rest of the proof no longer pays.
+    /// As [`Certify`](Self::Certify), but only until the rest of the proof no longer pays.
     CertifyWorth,
     /// Like [`Searcher::Certify`], without rollouts.
     CertifyPlain,
@@ -42,7 +42,7 @@ impl Searcher {
         Self::Random,
     ];
 
-    /// Returns the name, as a command line takes it.
+    /// Returns the name as typed on a command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -56,7 +56,7 @@ impl Searcher {
         }
     }
 
-    /// Returns whether the search makes the same run each time.
+    /// Returns whether the search is deterministic: makes the same run each time.
     #[must_use]
     pub const fn is_deterministic(self) -> bool {
         matches!(

@@ -18,7 +18,7 @@ pub struct TargetSearch {
 }
 
 impl TargetSearch {
-    /// Returns a search that has not been anywhere.
+    /// Returns a search without observations.
     #[must_use]
     pub fn new() -> Self {
         Self::default()

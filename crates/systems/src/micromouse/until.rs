@@ -3,7 +3,7 @@
 pub enum Until {
     /// The mouse has been at the goal.
     Goal,
-    /// Exploring on is expected to cost more of the score than it gains.
+    /// Further exploration is expected to cost more of the score than it gains.
     Worth,
     /// No run can score less than the best known one, whatever the unknown walls are.
     Proof,

@@ -23,13 +23,13 @@ pub struct BetterMslst {
 #[derive(Clone, Debug)]
 enum Phase {
     Exploration(Box<BetterExplorer>),
-    /// The system has explored all, and stands where it did so.
+    /// The system has explored everything, and its robot has not moved since.
     Explored(Box<BetterExplorer>, Box<BetterNavigator>),
     Navigation(Box<BetterNavigator>),
 }
 
 impl BetterMslst {
-    /// Returns a system that knows nothing yet. `ring` is that of its robot's scans.
+    /// Returns a system without knowledge. `ring` is that of its robot's scans.
     #[must_use]
     pub fn new(config: BetterConfig, ring: Ring) -> Self {
         Self {
@@ -50,8 +50,8 @@ impl BetterMslst {
         }
     }
 
-    /// Returns the reason why the map is unfinished or doubtful, in a sentence without a full stop;
-    /// `None` if nothing speaks against it.
+    /// Returns the reason why the map is unfinished or doubtful, as a sentence without a full stop;
+    /// `None` if there is none.
     #[must_use]
     pub fn doubt(&self) -> Option<&'static str> {
         match &self.phase {
@@ -95,7 +95,7 @@ impl BetterMslst {
         Ok(())
     }
 
-    /// Goes on to navigate where all is explored. The robot stays where `seen` was sensed.
+    /// Changes to navigation once everything is explored. The robot stays where `seen` was sensed.
     fn advance(&mut self, seen: &RolledStep) -> Result<(), RingError> {
         if let Phase::Exploration(explorer) = &self.phase
             && explorer.standing(Task::Explore) == Standing::Done

@@ -28,7 +28,7 @@ enum Phase {
 }
 
 impl Mslst {
-    /// Returns a brain that knows nothing yet.
+    /// Returns a brain without knowledge.
     #[must_use]
     pub fn new(config: MslstConfig) -> Self {
         Self {
@@ -37,7 +37,7 @@ impl Mslst {
         }
     }
 
-    /// Returns a brain that has learned `map`.
+    /// Returns a brain with a learned `map`.
     #[must_use]
     pub fn knowing(map: Arc<MslstMap>, config: MslstConfig) -> Self {
         let navigator = Navigator::new(map, &config);
@@ -83,7 +83,7 @@ impl Mslst {
         }
     }
 
-    /// Goes on to the next phase where one is complete. The robot stays where `seen` was sensed.
+    /// Changes to the next phase once one is complete. The robot stays where `seen` was sensed.
     fn advance(&mut self, seen: &TimeStep) -> Result<(), StatesError> {
         if let Phase::Scans(scans) = &self.phase
             && scans.is_complete()

@@ -9,17 +9,16 @@ pub struct MslstConfig {
     /// Phase I, the error threshold of the equilibrium GNG: squared robot units, above 0. The paper
     /// has 100 for the J maze, 20 and 50 for the Large one.
     pub threshold: f64,
-    /// Phase I, how long the robot wanders: time steps, at least 1. "Approximately 4000 time steps,
+    /// Phase I, duration of the wandering: time steps, at least 1. "Approximately 4000 time steps,
     /// on the large maze."
     pub scan_steps: u32,
-    /// Phase II, how long it wanders: actions, at least 1. The paper does not say: "chosen largely
-    /// based on how much time was available". See `docs/notebook/mslst.md`.
+    /// Phase II, duration of the wandering: actions, at least 1. The paper does not say: "chosen
+    /// largely based on how much time was available". See `docs/notebook/mslst.md`.
     pub graph_actions: u32,
     /// Number of pairs of state and action that Phase III remembers, at least 1. "The last eight …
     /// when solving the large maze, and six for the J-maze."
     pub memory: u32,
-    /// Phase III, for how many actions it acts randomly once it believes to have arrived. "Eight
-    /// actions."
+    /// Phase III, number of random actions once it believes that it has arrived. "Eight actions."
     pub doubt: u32,
 }
 

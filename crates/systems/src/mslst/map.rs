@@ -4,21 +4,21 @@ use tolman_robot::{Landmark, MapLink, MapPlace, MapView};
 
 use super::States;
 
-/// Result of Phases I and II for Phase III: all that the brain knows of the maze.
+/// Result of Phases I and II for Phase III: all of the brain's knowledge of the maze.
 #[derive(Clone, Debug)]
 pub struct MslstMap {
-    /// The states that scans are sorted into.
+    /// States into which scans are sorted.
     pub states: States,
-    /// Actions that lead from one to the next.
+    /// Graph of the actions that lead from one state to the next.
     pub graph: MslstGraph,
 }
 
-/// A map, and what an observer with the truth recorded about it.
+/// A map, and the truth that an observer recorded about it.
 #[derive(Clone, Debug)]
 pub struct Learned {
     /// The part for the brain.
     pub map: MslstMap,
-    /// The part that the brain does not get.
+    /// Truth, which the brain does not get.
     pub survey: GrowthRecord,
 }
 
@@ -28,12 +28,12 @@ pub struct Learned {
 pub struct GrowthRecord {
     /// True position of the robot when each node was made, by id, m.
     pub positions: Vec<Point>,
-    /// The action of Phase II, from 1, that made each node; 0 for the first one.
+    /// Action of Phase II, from 1, that made each node; 0 for the first node.
     pub made_by: Vec<u32>,
 }
 
 impl MslstMap {
-    /// Returns the size of states and graph, bytes. O(states + nodes).
+    /// Returns the memory of states and graph, bytes. O(states + nodes).
     #[must_use]
     pub fn bytes(&self) -> usize {
         let models = self.states.models().iter();

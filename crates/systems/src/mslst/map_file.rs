@@ -41,9 +41,9 @@ pub enum MapFileError {
         "node {node} has state {state}, but there are only {count} states; learn the map again"
     )]
     NoSuchState {
-        /// The node.
+        /// Number of the node, from 0.
         node: usize,
-        /// Its state.
+        /// State that the node names.
         state: u32,
         /// Number found.
         count: usize,
@@ -103,7 +103,7 @@ impl MapFile {
     /// Reads the text of a file.
     ///
     /// # Errors
-    /// [`MapFileError`] with the place and what to do about it.
+    /// [`MapFileError`] with the place and the repair.
     pub fn from_json(text: &str) -> Result<Self, MapFileError> {
         let (origin, body): (_, Body) = FILES.read(text)?;
         let count = body.states.len();
@@ -130,7 +130,7 @@ impl MapFile {
     }
 }
 
-/// Returns what a watcher saw; nothing of what it did not see of every node.
+/// Returns the growth record of the nodes. A list stays empty if any node lacks its value.
 fn surveyed(nodes: &[SavedNode]) -> GrowthRecord {
     let positions: Option<Vec<Point>> = nodes
         .iter()

@@ -10,7 +10,7 @@
 //!   [`MslstMap`].
 //! - [`Navigator`] is Phase III: the brain that navigates by one.
 //! - [`Mslst`] is all three, one by one.
-//! - [`better`] explores and navigates otherwise; [`BetterMslst`] is both, one by one.
+//! - [`better`] explores and navigates in another way; [`BetterMslst`] is both, one by one.
 //! - [`MapFile`] keeps a map.
 //!
 //! ```no_run

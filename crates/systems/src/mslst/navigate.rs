@@ -25,7 +25,7 @@ pub struct Navigator {
     map: Arc<MslstMap>,
     config: MslstConfig,
     memory: Memory,
-    /// The state of the last perception that had one.
+    /// State of the last perception that had one.
     state: Option<u32>,
     /// Actions that failed since the robot last moved.
     failed: Vec<Direction>,
@@ -39,23 +39,23 @@ pub struct Navigator {
 /// State of a navigator.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum NavigationState {
-    /// The robot acts randomly: it has no state yet, or the graph suggests nothing that has not
+    /// The robot acts randomly: it has no state yet, or the graph suggests only actions that have
     /// failed.
     #[default]
     Lost,
-    /// The robot acts randomly because it believes to have arrived where it has not.
+    /// The robot acts randomly because it falsely believes that it has arrived.
     Doubtful,
     /// The robot is at a node and follows the path from there.
     OnPath {
         /// Its possible places.
         belief: Localization,
-        /// The actions to the destination as it sees them, the next one first.
+        /// Actions to the destination, the next one first.
         path: Vec<Direction>,
     },
 }
 
 impl Navigator {
-    /// Returns a brain that knows `map` and remembers nothing yet.
+    /// Returns a brain that knows `map` and has an empty memory.
     #[must_use]
     pub fn new(map: Arc<MslstMap>, config: &MslstConfig) -> Self {
         Self {
@@ -70,7 +70,7 @@ impl Navigator {
         }
     }
 
-    /// Returns the map it navigates by.
+    /// Returns the map by which it navigates.
     #[must_use]
     pub const fn knows(&self) -> &Arc<MslstMap> {
         &self.map
@@ -109,7 +109,7 @@ impl Navigator {
         self.map.states.nearest(&north_scan(seen)?).ok()
     }
 
-    /// Returns what the graph suggests.
+    /// Returns the navigation state that follows from the graph: on a path, doubtful or lost.
     fn consult(&mut self) -> NavigationState {
         if self.doubts_left > 0 {
             self.doubts_left -= 1;
@@ -142,7 +142,7 @@ impl Navigator {
 }
 
 impl Navigator {
-    /// Returns the state of localization: done if exactly one node fits what the robot remembers.
+    /// Returns the state of localization: done if exactly one node fits the robot's memory.
     fn localized(&self) -> Standing {
         let Localization {
             candidates,

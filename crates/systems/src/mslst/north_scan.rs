@@ -28,7 +28,7 @@ pub fn heading_free(scan: &Scan, heading: Heading) -> Vec<f64> {
     ranges.map(|range| range / ROBOT_UNIT).collect()
 }
 
-/// Returns what the quantizer sees in a time step; `None` while ranges or heading drop out.
+/// Returns the quantizer's input in a time step; `None` while ranges or heading drop out.
 pub(super) fn north_scan(seen: &TimeStep) -> Option<Vec<f64>> {
     Some(heading_free(seen.scan.as_ref()?, seen.heading?))
 }

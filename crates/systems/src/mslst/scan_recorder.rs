@@ -85,7 +85,8 @@ impl Brain for ScanRecorder {
     }
 }
 
-/// Returns how a task stands in a phase that is for exploring alone; `why` it can do nothing else.
+/// Returns the standing of a task in a phase that only explores. `why` is the reason given for
+/// other tasks.
 pub(super) fn standing_of_phase(task: Task, is_complete: bool, why: &str) -> Standing {
     match task {
         Task::Explore if is_complete => Standing::Done,

@@ -14,14 +14,15 @@ pub enum StatesError {
     /// A scan cannot be used.
     #[error("scan {scan} cannot be used")]
     Scan {
-        /// Its number, from 0.
+        /// Number of the scan, from 0.
         scan: usize,
         /// The underlying error.
         source: InputError,
     },
 }
 
-/// The states that Phase I learned: model scans, numbered from 0 in the order the GNG made them.
+/// The states that Phase I learned: model scans, numbered from 0 in the order in which the GNG made
+/// them.
 #[derive(Clone, Debug)]
 pub struct States {
     models: Vec<Vec<f64>>,

@@ -22,7 +22,7 @@ use crate::{Brain, Doing, TimeStep};
 pub struct Topology {
     states: States,
     mapper: GraphMapper,
-    /// The state of the last place that had one.
+    /// State of the last place that had one.
     state: u32,
     actions: u32,
     wanted: u32,

@@ -8,12 +8,11 @@ pub struct PlacesConfig {
     pub matching: ScanMatchingConfig,
     /// Width of corridors, m.
     pub corridor_width: f64,
-    /// Number of later keyframes before one is judged, so that the ground ahead of it has been
-    /// seen.
+    /// Number of later keyframes before one is judged, so that the ground ahead has been seen.
     pub lag: usize,
-    /// Way without a corridor that makes a place, m.
+    /// Minimum length of a way without a corridor that makes a place, m.
     pub least_way: f64,
-    /// Way without a corridor after which another place begins, m.
+    /// Length of a way without a corridor after which another place begins, m.
     pub most_way: f64,
     /// Minimum length of the way before a place can be recognized again, m.
     pub least_absence: f64,
@@ -40,7 +39,7 @@ impl PlacesConfig {
     }
 
     /// Returns the same configuration for a mapper that leaves the recognition of places to another
-    /// one.
+    /// mapper.
     #[must_use]
     pub const fn unrecognized(mut self) -> Self {
         self.most_compared = 0;

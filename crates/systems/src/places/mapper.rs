@@ -33,7 +33,7 @@ pub struct PlacesMapper {
     judged: usize,
     /// Keyframes without a corridor since the last with one.
     open: Vec<usize>,
-    /// The places in the order that they were come to.
+    /// Places in the order of the visits.
     visits: Vec<Visit>,
 }
 
@@ -42,7 +42,7 @@ struct Visit {
     kind: SiteKind,
     /// The keyframe halfway through the place.
     keyframe: usize,
-    /// The middle of the free ground there, as seen from the keyframe.
+    /// Middle of the free ground there, relative to the keyframe.
     middle: Point,
 }
 
@@ -76,8 +76,8 @@ impl PlacesMapper {
         &self.matching
     }
 
-    /// Returns the places in the order of the visits. A place that was recognized, or whose pose is
-    /// at another place, appears again with the number of the first. O(places² + edges).
+    /// Returns the places in the order of the visits. A recognized place, or one whose pose is at
+    /// an earlier place, has the number of the earlier one. O(places² + edges).
     #[must_use]
     pub fn sites(&self) -> Vec<SitePlace> {
         let graph = self.matching.graph();
@@ -145,7 +145,7 @@ impl PlacesMapper {
         })
     }
 
-    /// Returns where the middle of a place lies by the poses.
+    /// Returns the position of a visited place's middle by the poses.
     fn middle(&self, visit: &Visit) -> Point {
         self.pose(visit.keyframe).transform(visit.middle)
     }
@@ -159,7 +159,7 @@ impl PlacesMapper {
             .position(|middle| (*middle - here).norm() < near)
     }
 
-    /// Climbs from where the robot stood to the middle of the free ground there.
+    /// Climbs from the robot's position to the middle of the free ground there.
     fn climb(&self, keyframe: usize) -> Point {
         let ring = self.detector.ring();
         let reach = MIDDLE_WIDTHS * self.config.corridor_width;
@@ -174,14 +174,14 @@ impl PlacesMapper {
         middle
     }
 
-    /// Returns the quarter by which the robot left a place for the next.
+    /// Returns the quarter by which the robot left one place for the next.
     fn left_by(&self, axis: Heading, from: usize, to: usize) -> usize {
         let left = Heading::of(self.far_off(from, from + 1..=to));
         Site::quarter(from_axis(axis, left))
     }
 
-    /// Returns the way to the place that it came to as number `visit`; `None` for the first.
-    /// O(keyframes on the way · keyframes).
+    /// Returns the way to the place of visit number `visit`; `None` for the first. O(keyframes on
+    /// the way · keyframes).
     #[must_use]
     pub fn way_to(&self, visit: usize) -> Option<SiteWay> {
         let (from, to) = (self.site(visit.checked_sub(1)?)?, self.site(visit)?);
@@ -209,16 +209,16 @@ impl PlacesMapper {
         })
     }
 
-    /// Returns the way from where the robot stood in a place to its middle, along the building's
-    /// axes, m.
+    /// Returns the displacement from the robot's position in a place to the place's middle, along
+    /// the building's axes, m.
     fn to_middle(&self, site: &Site) -> Option<Vector> {
         let axis = self.matching.axis_about(site.keyframe)?;
         let off = site.middle - self.pose(site.keyframe).position;
         Some(from_axis(axis, Heading::EAST).rotate(off))
     }
 
-    /// Returns where the first of some keyframes lies that is farther off than a corridor is wide,
-    /// or the last.
+    /// Returns the displacement to the first of `others` that is farther off than a corridor is
+    /// wide, m, or to the last of them.
     fn far_off(&self, from: usize, others: impl Iterator<Item = usize>) -> Vector {
         let here = self.pose(from).position;
         let mut off = Vector::zeros();
@@ -231,8 +231,8 @@ impl PlacesMapper {
         off
     }
 
-    /// Takes the place that it came to as number `visit` for one it came to before, if the scans
-    /// match; returns whether they do.
+    /// Identifies the place of visit number `visit` with an earlier one if the scans match. Returns
+    /// whether they do.
     ///
     /// # Errors
     /// If a measurement does not fit.
@@ -255,7 +255,8 @@ impl PlacesMapper {
         self.leave()
     }
 
-    /// Judges what is left, and makes the poses agree; then the map does not change any more.
+    /// Judges the remaining keyframes, and makes the poses agree. The map does not change
+    /// afterwards.
     ///
     /// # Errors
     /// If a measurement does not fit.
@@ -264,7 +265,7 @@ impl PlacesMapper {
         Ok(self.matching.finish()?)
     }
 
-    /// Judges the keyframes before `end` that have not been.
+    /// Judges the keyframes before `end` that are not judged yet.
     fn judge_to(&mut self, end: usize) -> Result<(), PlacesError> {
         while self.judged < end {
             let keyframe = self.judged;
@@ -288,7 +289,7 @@ impl PlacesMapper {
         steps.map(|step| step.norm()).sum()
     }
 
-    /// Returns the axes of the building, as a compass has them.
+    /// Returns the heading of the building's first axis; east before scans show it.
     fn axis(&self) -> Heading {
         self.matching.axis().unwrap_or(Heading::EAST)
     }
@@ -305,7 +306,7 @@ impl PlacesMapper {
         })
     }
 
-    /// Ends the place that the robot was at, if it was at one.
+    /// Ends the present place, if there is one.
     fn leave(&mut self) -> Result<(), PlacesError> {
         let is_place = self.way_of_open() >= self.config.least_way;
         let middle = self.open.get(self.open.len() / 2).copied();
@@ -341,7 +342,7 @@ impl PlacesMapper {
         Ok(())
     }
 
-    /// Returns the places that a keyframe may be at, the nearest first.
+    /// Returns the places at which a keyframe may be, the nearest first.
     fn near(&self, keyframe: usize) -> Vec<usize> {
         let here = self.pose(keyframe).position;
         let reach = self.config.apart + self.matching.doubt(keyframe);
@@ -370,7 +371,7 @@ impl PlacesMapper {
     }
 }
 
-/// Returns a heading as seen from an axis.
+/// Returns a heading relative to an axis.
 fn from_axis(axis: Heading, heading: Heading) -> Heading {
     heading.turned(-axis.radians())
 }

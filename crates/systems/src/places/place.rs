@@ -5,9 +5,9 @@ use tolman_robot::{Ring, Scan};
 pub struct SitePlace {
     /// Kind of place.
     pub kind: SiteKind,
-    /// The keyframe in its middle, by its number.
+    /// Number of the keyframe in its middle.
     pub keyframe: usize,
-    /// The place on the map that it is: its own number, or that of an earlier one.
+    /// Number of the place on the map: its own, or that of an earlier place.
     pub id: u32,
 }
 
@@ -18,7 +18,7 @@ pub enum SiteKind {
     DeadEnd,
     /// Two ways, side by side.
     Bend,
-    /// Two ways, opposite: a wide part of a corridor, or a room that it goes through.
+    /// Two ways, opposite: a wide part of a corridor, or a room with a door on either side.
     Passage,
     /// Three ways or four.
     Junction,
@@ -28,8 +28,8 @@ pub enum SiteKind {
 const OPEN_WIDTHS: f64 = 1.25;
 
 impl SiteKind {
-    /// Returns the kind of place that a scan shows, where corridors are `width` wide, m. The `ring`
-    /// of the scan looks along the axes of a building.
+    /// Returns the kind of place in a scan, where corridors are `width` wide, m. The `ring` of the
+    /// scan looks along the axes of a building.
     #[must_use]
     pub fn of(scan: &Scan, width: f64) -> Self {
         let open = ways_on(scan, width);
@@ -42,13 +42,13 @@ impl SiteKind {
     }
 }
 
-/// Returns in which of the four quarters a way leads on, by a scan of a ring aligned with the
-/// building's axes. Corridors are `width` m wide.
+/// Returns whether a way leads on in each of the four quarters, by a scan aligned with the
+/// building's axes. Corridors are `width` wide, m.
 pub(super) fn ways_on(scan: &Scan, width: f64) -> [bool; 4] {
     [0, 1, 2, 3].map(|quarter| is_open(&scan.ranges, &scan.ring, quarter, width))
 }
 
-/// Returns whether the middle half of a quarter's beams see nothing near in the mean.
+/// Returns whether the mean range of the middle half of a quarter's beams is far.
 fn is_open(ranges: &[f64], ring: &Ring, quarter: u32, width: f64) -> bool {
     let beams = ring.beams as usize;
     let spread = beams / 36;

@@ -7,7 +7,7 @@ use tolman_robot::{Guess, MapView, Mapper, Position};
 
 use super::{PlacesConfig, PlacesError, PlacesMapper, Site, SiteWay};
 
-/// Tells a mapper of places that another drove to, such as the robot of a log.
+/// Feeds a mapper with the places to which another drove, such as the robot of a log.
 pub trait OfSites {
     /// The mapper that learns.
     type Mapper: Mapper;
@@ -34,7 +34,7 @@ pub enum SiteMapperError<B, M> {
     /// The mapper cannot begin.
     #[error("the mapper cannot begin at the first place")]
     Begin(#[source] B),
-    /// The mapper refuses a way.
+    /// The mapper refuses a way between two places.
     #[error("the mapper refuses the way to place {visit} of the log")]
     Way {
         /// Counted from 0.
@@ -52,7 +52,7 @@ pub struct SiteMapper<O: OfSites> {
     places: PlacesMapper,
     of_sites: O,
     mapper: Option<O::Mapper>,
-    /// The place that the mapper believed to be at, visit by visit.
+    /// Place at which the mapper believed to be, visit by visit.
     believed: Vec<Option<u32>>,
 }
 
@@ -60,7 +60,7 @@ type Outcome<T, O> =
     Result<T, SiteMapperError<<O as OfSites>::Error, <<O as OfSites>::Mapper as Mapper>::Error>>;
 
 impl<O: OfSites> SiteMapper<O> {
-    /// Returns a mapper that has seen nothing.
+    /// Returns a mapper without observations.
     ///
     /// # Errors
     /// If the corridors' width is not a positive length.
@@ -85,8 +85,7 @@ impl<O: OfSites> SiteMapper<O> {
         self.places.matching()
     }
 
-    /// Returns the keyframe of each visit with the place that the mapper takes it for. O(visits ·
-    /// log map).
+    /// Returns the keyframe of each visit with the mapper's place for it. O(visits · log map).
     #[must_use]
     pub fn keyframes_of_visits(&self) -> Vec<(usize, Option<u32>)> {
         let keyframes = self.places.sites().into_iter().map(|site| site.keyframe);
@@ -121,7 +120,7 @@ impl<O: OfSites> SiteMapper<O> {
         }
     }
 
-    /// Tells the mapper of what is left, and makes the poses agree with the places that it
+    /// Passes the mapper the remaining places, and makes the poses agree with the places that it
     /// recognized.
     ///
     /// # Errors

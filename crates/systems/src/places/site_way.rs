@@ -5,12 +5,12 @@ use tolman_robot::{Ring, Scan};
 
 use super::SiteKind;
 
-/// A place as a robot sees it that comes to it, whether or not it was there before.
+/// A place as a robot sees it on arrival, whether or not it has been there before.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Site {
-    /// The keyframe in its middle, by its number.
+    /// Number of the keyframe in its middle.
     pub keyframe: usize,
-    /// Middle of the free ground about it, which is the same from all sides.
+    /// Middle of the free ground around it, which is the same from all sides.
     pub middle: Point,
     /// Kind of place.
     pub kind: SiteKind,
@@ -23,8 +23,7 @@ pub struct Site {
     pub came_by: usize,
 }
 
-/// The way from one place to the next, as the scans on it tell it. Nothing was recognized to
-/// measure it.
+/// The way from one place to the next by the scans on it. It does not depend on recognized places.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SiteWay {
     /// The place at its beginning.
@@ -33,9 +32,9 @@ pub struct SiteWay {
     pub left_by: usize,
     /// Displacement of the robot along the building's axes, m.
     pub moved: Vector,
-    /// Way that the robot went for that, m.
+    /// Length of the robot's way, m.
     pub length: f64,
-    /// The keyframes on it, that of the place at its end last.
+    /// Keyframes on the way; the last is that of the place at its end.
     pub steps: Vec<SiteStep>,
     /// The place at its end.
     pub to: Site,
@@ -44,15 +43,15 @@ pub struct SiteWay {
 /// A keyframe on the way.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SiteStep {
-    /// Its pose as seen from the keyframe before.
+    /// Pose relative to the keyframe before.
     pub moved: Pose,
     /// Ranges around it. The first beam looks ahead.
     pub around: Scan,
 }
 
 impl Site {
-    /// Returns the quarter counter-clockwise from the first axis, by its number, that a heading
-    /// lies nearest to.
+    /// Returns the number of the quarter nearest to a heading, counter-clockwise from the first
+    /// axis.
     #[must_use]
     pub fn quarter(heading: Heading) -> usize {
         let quarters = libm::round(heading.radians() / FRAC_PI_2);
@@ -60,8 +59,8 @@ impl Site {
     }
 }
 
-/// Returns the ring of what is around a place: the paper's 72 beams, whose reach follows from the
-/// corridor width.
+/// Returns the ring of the scan around a place: the paper's 72 beams, with a reach that follows
+/// from the corridor width.
 #[must_use]
 pub(super) fn ring(corridor_width: f64) -> Ring {
     Ring::full(BEAMS, REACH_WIDTHS * corridor_width)
@@ -70,8 +69,8 @@ pub(super) fn ring(corridor_width: f64) -> Ring {
 const BEAMS: u32 = 72;
 const REACH_WIDTHS: f64 = 4.0;
 
-/// Returns where the middle of the free ground lies that a scan shows within `reach`, m, in the
-/// scan's frame.
+/// Returns the centroid of the free ground that a scan shows within `reach`, m, in the scan's
+/// frame.
 pub(super) fn middle_of(scan: &Scan, reach: f64) -> Vector {
     let (mut area, mut moment) = (0.0, Vector::zeros());
     for (beam, range) in (0..).zip(&scan.ranges) {

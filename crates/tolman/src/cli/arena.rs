@@ -184,7 +184,7 @@ pub(super) fn carry_out(
     table(&contestants, robot, &worlds, &held, out)
 }
 
-/// Returns what learning costs each system, as means over the worlds in which it drove.
+/// Writes the cost of learning for each system, as means over the worlds in which it drove.
 fn costs(
     contestants: &[Contestant],
     worlds: &[DrawnWorld],
@@ -311,7 +311,7 @@ fn line<'a>(
     }
 }
 
-/// Returns the table with one row for each system.
+/// Writes the table with one row for each system.
 fn table(
     contestants: &[Contestant],
     robot: ContestRobot,
@@ -380,7 +380,7 @@ fn table(
     Ok(why_not(contestants, worlds, held, out)?)
 }
 
-/// Returns why each system abstained, one line per system.
+/// Writes why each system abstained, one line per system.
 fn why_not(
     contestants: &[Contestant],
     worlds: &[DrawnWorld],

@@ -210,7 +210,7 @@ fn shown(contest: &Contest<'_>, is_live: bool) -> Result<(ShowRecord, Replay), F
     Ok((record, replay))
 }
 
-/// Writes what happened, in lines of at most 80 columns.
+/// Writes the events of the demo, in lines of at most 80 columns.
 fn tell(contest: &Contest<'_>, record: &ShowRecord, out: &mut dyn Write) -> Result<(), Failure> {
     let ShowRecord {
         learned,

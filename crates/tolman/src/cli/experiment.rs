@@ -47,7 +47,8 @@ pub(super) struct Arguments {
     #[arg(long, num_args = 3, value_names = ["TABLE", "ROW", "RUN"], requires = "name")]
     #[arg(allow_hyphen_values = true, conflicts_with_all = ["check", "json", "list"])]
     replay: Vec<String>,
-    /// Compare two folders of results, list the runs that differ, and exit; exits 1 if any do
+    /// Compare two folders of results, list the runs that differ, and exit; the exit code is 1 if
+    /// any do
     #[arg(long, num_args = 2, value_names = ["DIR", "DIR"], exclusive = true)]
     compare: Vec<PathBuf>,
     /// Play one run of each row of a folder of results again, or --runs of them, and exit. Exits 1

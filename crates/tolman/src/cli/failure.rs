@@ -11,7 +11,7 @@ use clap::builder::styling::{AnsiColor, Style};
 
 use super::interrupt::INTERRUPTED;
 
-/// Reason why a verb did not do what it was asked for.
+/// Reason why a verb failed.
 #[derive(Debug)]
 pub(super) enum Failure {
     /// The caller has to give something else.

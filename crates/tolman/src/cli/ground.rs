@@ -81,7 +81,8 @@ impl Ground {
         Ok((maze::name(path), Terrain::Free(free)))
     }
 
-    /// Returns the first part of what a run of this verb on `course` depends on.
+    /// Returns the first part of a call: everything about `course` on which a run of this verb
+    /// depends.
     pub(super) fn call(&self, verb: &str, course: &Course) -> Call {
         Call::new(verb)
             .with("the world's name", Some(&course.name))

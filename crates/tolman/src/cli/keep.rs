@@ -1,5 +1,5 @@
-//! `tolman keep`: a process between a verb and a foreign program. It makes sure that nothing stays
-//! behind.
+//! `tolman keep`: a process between a verb and a foreign program, which kills everything that the
+//! program leaves behind.
 
 use std::ffi::OsString;
 

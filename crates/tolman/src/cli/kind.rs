@@ -48,7 +48,7 @@ impl Kind {
         Self::of(text).is_some_and(|kind| kind != self)
     }
 
-    /// Returns what a file of this kind is called, and which verb takes it.
+    /// Returns the kind's name and the verb that takes it.
     const fn told(self) -> &'static str {
         match self {
             Self::Maze => "a maze: give it to `tolman maze show` or to --maze",
@@ -62,7 +62,7 @@ impl Kind {
         }
     }
 
-    /// Returns how to make a file of this kind.
+    /// Returns the hint on how to make a file of this kind.
     const fn made(self) -> &'static str {
         match self {
             Self::Maze => "`tolman maze generate` writes a maze",

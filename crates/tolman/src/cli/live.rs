@@ -1,4 +1,4 @@
-//! A run shown while it goes: on the terminal, or as one line where nothing can be drawn.
+//! Shows a run in progress: on the terminal, or as one line where nothing can be drawn.
 //!
 //! The run does not depend on the viewer. Every step is made as always, and then waits until it has
 //! been shown.
@@ -65,7 +65,7 @@ impl Live {
         }
     }
 
-    /// Shows what the system knows now. Only a picture uses it.
+    /// Shows the system's present knowledge. Only a picture uses it.
     pub(super) fn know(&mut self, glimpse: impl FnOnce() -> Glimpse) {
         if let Self::Screen(screen) = self {
             screen.know(glimpse());

@@ -5,14 +5,14 @@ use anyhow::anyhow;
 use super::Failure;
 use super::replay_file::{self, Overwrite};
 
-/// Options that say how a run is shown and written down.
+/// Options for showing and recording a run.
 #[derive(clap::Args)]
 pub(super) struct Looks {
     /// Show the run on the terminal. Space pauses, → steps, + and - change the speed, q closes the
     /// view
     #[arg(long)]
     pub(super) live: bool,
-    /// Draw the robot's way over the maze or the world
+    /// Draw the robot's path over the maze or the world
     #[arg(long, value_name = "FILE")]
     pub(super) svg: Option<PathBuf>,
     /// Write a trace of the run, as JSON lines: the world and the robot, then command, outcome and
@@ -58,7 +58,8 @@ impl Looks {
         self.live || self.svg.is_some() || self.trace.is_some() || self.replay.is_some()
     }
 
-    /// Returns which file the replay may overwrite. It is called before the work begins.
+    /// Returns the rule for the existing files that the replay may overwrite. It is called before
+    /// the work begins.
     ///
     /// # Errors
     /// Bad input if the file exists and is not a replay.

@@ -39,7 +39,7 @@ Examples:
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/small-1.txt --json
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/small-1.txt --replay hosted.html")]
 pub(super) struct Arguments {
-    /// Command that starts the mouse; split into words as a shell would, but run without one
+    /// Command that starts the mouse. It is split into words as by a shell, but run without one
     #[arg(long, value_name = "CMD")]
     mouse: String,
     /// Maze file of any format, or a folder of them
@@ -198,8 +198,8 @@ impl Watched {
     }
 }
 
-/// Returns a maze as mms has it, whatever the file says: the mouse starts in the south-west, and
-/// the goal is the middle.
+/// Returns a maze under mms's rules, whatever the file says: the mouse starts in the south-west,
+/// and the goal is the middle.
 fn of_mms(maze: &Maze) -> Maze {
     let mut maze = maze.clone();
     maze.set_start(Some((Cell::new(0, 0), Direction::North)));

@@ -141,7 +141,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
 }
 
 impl Arguments {
-    /// Returns how to explore under the paper's rules.
+    /// Returns the searcher for exploring under the paper's rules.
     ///
     /// # Errors
     /// Bad input if the options only fit `--mms`.

@@ -62,7 +62,7 @@ pub(super) struct Gather {
     /// Seed of all random numbers: the same seed gives the same result
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Maximum calibration error of each wheel, as a share of the way that it rolled
+    /// Maximum calibration error of each wheel, as a share of its distance
     #[arg(long, value_name = "SHARE", default_value = "0", value_parser = share)]
     calibration: f64,
     /// File to write: one line of JSON about the data set, then one per record
@@ -70,7 +70,7 @@ pub(super) struct Gather {
     out: PathBuf,
 }
 
-/// Describes a data set, and draws where its records were taken
+/// Describes a data set, and draws the places of its records
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example:
@@ -79,7 +79,7 @@ Example:
 pub(super) struct Show {
     /// Data set, written by `tolman pitch gather`
     file: PathBuf,
-    /// Draw where the records were taken
+    /// Draw the places of the records
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
     /// Write the figures as JSON

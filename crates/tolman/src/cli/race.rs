@@ -49,7 +49,7 @@ pub(super) struct Arguments {
     /// Maze file of any format, or a folder of them
     #[arg(value_name = "MAZE|DIR", required_unless_present = "template")]
     maze: Option<PathBuf>,
-    /// File that says how the mouse drives: times, speeds, accelerations, cell size
+    /// File with the mouse's driving parameters: times, speeds, accelerations, cell size
     #[arg(long, value_name = "PARAMS.toml")]
     mouse: Option<PathBuf>,
     /// Print a file for --mouse that explains every number

@@ -21,7 +21,7 @@ pub(super) enum Overwrite {
 }
 
 impl Overwrite {
-    /// Returns what `--force` asks for.
+    /// Returns [`Anything`](Self::Anything) with `--force`, else [`Replays`](Self::Replays).
     pub(super) const fn if_forced(force: bool) -> Self {
         if force { Self::Anything } else { Self::Replays }
     }
@@ -39,7 +39,7 @@ fn formats() -> &'static [ReplayFormat] {
     FORMATS.get().map_or(&[], Vec::as_slice)
 }
 
-/// Endings of names that ask for a format, with what to do where the program lacks it.
+/// Endings of names that request a format, with the advice if the program lacks it.
 const ELSEWHERE: [(&str, &str); 2] = [
     ("mcap", "build it with --features mcap"),
     (

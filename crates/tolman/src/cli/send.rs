@@ -23,7 +23,7 @@ pub(super) struct Pursued {
     pub(super) told: String,
 }
 
-/// Lets a system pursue a task to its end, shows it, and writes what was asked for. `keeper` saves
+/// Lets a system pursue a task to its end, shows it, and writes the requested files. `keeper` saves
 /// the run if it is interrupted.
 ///
 /// # Errors
@@ -139,7 +139,7 @@ fn told(ended: &Ended, outing: &dyn Outing, word: &str) -> String {
     )
 }
 
-/// Writes where the replay is, if there is one.
+/// Writes the path of the replay, if there is one.
 pub(super) fn tell_replay(looks: &Looks, out: &mut dyn Write) -> Result<(), Failure> {
     if let Some(path) = &looks.replay {
         writeln!(out, "replay: {}", replay_file::address(path))?;

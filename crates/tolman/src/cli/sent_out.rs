@@ -58,7 +58,7 @@ impl SentOut {
         }
     }
 
-    /// Returns what a run of this verb depends on.
+    /// Returns the call of this verb with all options on which the run depends.
     pub(super) fn call(&self, verb: &str, system: &str, outing: &dyn Outing) -> Call {
         let set = self
             .set

@@ -19,7 +19,7 @@ Examples:
   tolman trial --experiment baselines --chunk 2/2 --quick --out shared
   tolman merge shared")]
 pub(super) struct Arguments {
-    /// Experiment to play a share of
+    /// Experiment whose runs are shared
     #[arg(id = "name", long = "experiment", value_name = "NAME")]
     name: String,
     /// Share to play: the I-th of K, such as 3/8

@@ -60,7 +60,7 @@ impl Call {
         Self(vec![("the verb".to_owned(), verb.to_owned())])
     }
 
-    /// Adds a flag and its value; nothing if the flag was not given.
+    /// Adds a flag and its value, or nothing if the flag was not given.
     #[must_use]
     pub(super) fn with(mut self, flag: &str, value: Option<impl ToString>) -> Self {
         self.0
@@ -109,7 +109,7 @@ pub(super) struct Unfinished {
     done: Done,
     /// Checksum of its results until then.
     checksum: String,
-    /// The map from which it continued, if any.
+    /// Map from which the run continued; `None` if it did not continue one.
     map: Option<FormerMap>,
 }
 
@@ -148,7 +148,7 @@ impl Unfinished {
         }
     }
 
-    /// Returns the map from which the run continued, if any.
+    /// Returns the map from which the run continued, or `None`.
     pub(super) const fn map(&self) -> Option<&FormerMap> {
         self.map.as_ref()
     }
@@ -176,7 +176,7 @@ impl Former {
         }))
     }
 
-    /// Returns the run.
+    /// Returns the unfinished run.
     pub(super) const fn run(&self) -> &Unfinished {
         &self.run
     }
@@ -205,7 +205,7 @@ pub(super) enum Saving {
     WhileItGoes,
 }
 
-/// A run in progress: what is still to be repeated of the former run, and when to save.
+/// A run in progress: the rest of the former run that must be repeated, and the times of saving.
 pub(super) struct Keeper {
     path: PathBuf,
     call: Call,
@@ -226,7 +226,7 @@ const PERIOD: Duration = Duration::from_secs(1);
 /// Minimum time between two saves, as a multiple of the time that a save takes.
 const PATIENCE: u32 = 20;
 
-/// State of a run so far as a text, without the robot's way; or why it has none.
+/// State of a run so far as a text, without the robot's way; or the reason why it has none.
 type State = Result<String, BoxError>;
 
 impl Keeper {
@@ -283,13 +283,13 @@ impl Keeper {
         Self { map, ..self }
     }
 
-    /// Returns how far the former run came, while it is still being repeated.
+    /// Returns the length of the former run while it is still being repeated, or `None` afterwards.
     pub(super) fn again(&self) -> Option<Done> {
         self.former.as_ref().map(|former| former.run.done)
     }
 
-    /// Records that the run has come as far as `done`, with its way and its bumps so far. Saves it
-    /// if that is due.
+    /// Records that the run has reached `done`, with its way and its bumps so far. Saves it if that
+    /// is due.
     ///
     /// # Errors
     /// If the repeated part differs from the former run.
@@ -345,7 +345,7 @@ impl Keeper {
         Ok(())
     }
 
-    /// Returns how to continue an interrupted run, in words.
+    /// Returns the message about an interrupted run, with the command that continues it.
     pub(super) fn told(&self) -> String {
         let Done { actions, steps } = self.again().unwrap_or(self.done);
         let told = format!("interrupted after {actions} actions, {steps} steps");
@@ -413,7 +413,7 @@ impl Default for Trail {
 }
 
 impl Trail {
-    /// Adds what is new since the last call. O(new).
+    /// Adds everything new since the last call. O(new).
     fn follow(&mut self, path: &[Pose], bumped: &[u32]) {
         for pose in path.iter().skip(self.poses) {
             let Pose { position, heading } = pose;

@@ -38,7 +38,7 @@ impl Watched {
         Ok(Self { live, shown: 1 })
     }
 
-    /// Shows the steps of an action, and what the system knows after it.
+    /// Shows the steps of an action, and the system's knowledge after it.
     pub(super) fn see(&mut self, outing: &dyn Outing, film: &Film) {
         let words = outing.words();
         let (path, bumped) = (outing.path(), outing.bumped());

@@ -37,7 +37,7 @@ const PRESETS: [(&str, &str); 1] = [(
 /// The part of this system that needs mazes, for error messages.
 const OFFICE: &str = "the diktiometry's office";
 
-/// Settings for learning: of the robot's walk, and of the world that is made of the maze.
+/// Settings for learning: of the robot's walk, and of the world made from the maze.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Learning {

@@ -128,7 +128,7 @@ fn sites(start: Point, made: &[Founding]) -> Vec<Point> {
     first.into_iter().chain(others).collect()
 }
 
-/// Returns how a map lies over the world; `None` if the true poses were not recorded.
+/// Returns the placement of a map over the world; `None` if the true poses were not recorded.
 fn laid(file: &BetterMapFile) -> Option<LaidOver> {
     laid_over(&file.chart, &file.sites)
 }

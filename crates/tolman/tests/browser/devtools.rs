@@ -108,7 +108,7 @@ impl Devtools {
         }
     }
 
-    /// Returns what has happened so far.
+    /// Returns all events so far.
     pub(crate) fn events(&self) -> &[Value] {
         &self.events
     }
@@ -141,7 +141,7 @@ impl Drop for Devtools {
     }
 }
 
-/// Port and path that the browser writes into its profile once it listens.
+/// Returns the port and path that the browser writes into its profile once it listens.
 #[track_caller]
 fn address(profile: &std::path::Path) -> (u16, String) {
     let file = profile.join("DevToolsActivePort");

@@ -54,7 +54,7 @@ fn tolman(words: &[&str]) -> String {
     ended(words, 0)
 }
 
-/// [`tolman`], asking for another exit code.
+/// Runs [`tolman`], asking for another exit code.
 #[track_caller]
 fn ended(words: &[&str], code: i32) -> String {
     let output = Command::new(env!("CARGO_BIN_EXE_tolman"))

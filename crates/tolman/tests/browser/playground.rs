@@ -27,7 +27,7 @@ fn opened(name: &str) -> Option<(Tab, PathBuf)> {
     Some((tab, folder(name)))
 }
 
-/// What is told.
+/// Returns the text of the page's caption.
 fn told(tab: &mut Tab) -> String {
     let told = tab.eval("document.querySelector('#told').textContent");
     told.as_str().unwrap().to_owned()

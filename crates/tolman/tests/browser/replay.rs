@@ -162,7 +162,7 @@ impl fmt::Display for Frames {
     }
 }
 
-/// Sixty frames all over a run, forth and back.
+/// Returns the durations of sixty frames all over a run, to and fro.
 fn frames(tab: &mut Tab) -> Frames {
     let times = tab.eval(
         "(async () => {

@@ -89,7 +89,7 @@ impl Tab {
         answer["result"]["value"].take()
     }
 
-    /// Returns the number that an expression is.
+    /// Returns the value of an expression that is a number.
     #[track_caller]
     pub(crate) fn number(&mut self, expression: &str) -> f64 {
         let value = self.eval(expression);
@@ -97,7 +97,7 @@ impl Tab {
         value.as_f64().unwrap()
     }
 
-    /// Returns the whole number that an expression is.
+    /// Returns the value of an expression that is a whole number.
     #[track_caller]
     pub(crate) fn whole(&mut self, expression: &str) -> u64 {
         let value = self.eval(expression);
@@ -180,7 +180,7 @@ impl Tab {
         );
     }
 
-    /// By how many pixels the page is wider than the window.
+    /// Returns the number of pixels by which the page is wider than the window.
     #[track_caller]
     pub(crate) fn overflow(&mut self) -> f64 {
         self.number(
@@ -237,7 +237,7 @@ impl Tab {
         assert!(self.overflow() <= 0.0, "{seen}: scrolls sideways");
     }
 
-    /// Returns what has gone wrong on the page so far, and what it asked of the network.
+    /// Returns the page's errors and warnings so far, and its requests to the network.
     pub(crate) fn complaints(&self) -> Vec<String> {
         let events = self.devtools.events();
         events.iter().filter_map(complaint).collect()
@@ -251,7 +251,7 @@ impl Tab {
     }
 }
 
-/// Returns what an event says against a page.
+/// Returns the complaint that an event is about a page, or `None` if it is harmless.
 fn complaint(event: &Value) -> Option<String> {
     let params = &event["params"];
     let wrong = match event["method"].as_str()? {

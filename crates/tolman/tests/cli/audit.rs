@@ -56,7 +56,7 @@ fn the_false_closures_of_a_graph_are_refuted_and_the_rest_is_kept() {
     assert!(edges(&folder.join("strict/cleaned.g2o")) <= edges(&cleaned));
 }
 
-/// Every place of a number or word in a JSON value.
+/// Collects the path of every number or word in a JSON value.
 fn leaves(value: &serde_json::Value, at: &str, found: &mut Vec<String>) {
     match value {
         serde_json::Value::Object(fields) => {

@@ -36,7 +36,7 @@ fn host(folder: &Path, mark: &str, script: &str, time_limit: &str) -> Command {
     command
 }
 
-/// The processes of a test that are there now.
+/// Returns the running processes of a test.
 fn marked(mark: &str) -> Vec<PathBuf> {
     let mark = format!("{MARK}={mark}\0");
     let mut found = Vec::new();
@@ -301,7 +301,7 @@ fn a_thousand_starts_leave_nothing_behind() {
     assert!(next().is_none());
 }
 
-/// A host whose mouse has moved once and started processes in other sessions.
+/// Returns a host whose mouse has moved once and has started processes in other sessions.
 fn busy_host(mark: &str) -> Child {
     let script =
         "echo turnLeft; read -r _; (setsid sleep 1000 &); touch ready; sh -c 'sleep 1000; :'";

@@ -156,7 +156,7 @@ fn a_robot_that_knows_two_mazes_is_put_down_anywhere_in_one() {
     solve(&["--start", "somewhere"]).refused(2, &["expected random, marked"]);
 }
 
-/// What `tolman learn` says of a maze, which it refuses.
+/// Checks that `tolman learn` refuses a maze, with the texts `told`.
 fn refused_maze(name: &str, maze: &str, told: &[&str]) {
     let folder = folder(name);
     fs::write(folder.join("maze.maze"), maze).unwrap();

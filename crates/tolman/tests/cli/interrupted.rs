@@ -31,7 +31,7 @@ fn words(command: &str) -> Vec<&str> {
     command.split_whitespace().collect()
 }
 
-/// Returns how a command ended that was ended so, if it had not ended before.
+/// Returns the end of a command that was ended by `end`, unless it had ended by itself.
 fn ended(folder: &Path, command: &str, unfinished: &Path, end: End) -> Ended {
     let mut spawned = command_in(folder, &words(command));
     let spawned = spawned.stdout(Stdio::piped()).stderr(Stdio::piped());
@@ -88,7 +88,7 @@ impl Run {
         run
     }
 
-    /// Returns what a run came to, and removes its files.
+    /// Returns a run's exit code, output and files, which it removes.
     fn outcome(&self, told: Ended) -> (Option<i32>, String, Vec<Vec<u8>>) {
         assert_ne!(told.code, Some(INTERRUPTED), "{}", told.err);
         let take = |name: &&str| {
@@ -139,7 +139,7 @@ impl Run {
         }
     }
 
-    /// The command, which goes on if there is something to go on with.
+    /// Returns the command, which continues an unfinished run if there is one.
     fn again(&self, name: &str) -> String {
         match self.unfinished.exists() {
             true => format!("{} --from {name}", self.command),
@@ -147,12 +147,12 @@ impl Run {
         }
     }
 
-    /// After this share of the time that it takes.
+    /// Returns an interrupt after `share` of the run's duration.
     fn at(&self, share: f64) -> End {
         End::Interrupt(self.takes.mul_f64(share))
     }
 
-    /// At any moment while it goes.
+    /// Returns a kill at a random moment of the run.
     fn any_time(&self, rng: &mut ChaCha8Rng) -> End {
         End::KillAfter(self.takes.mul_f64(rng.random()))
     }

@@ -87,7 +87,7 @@ impl Ended {
     }
 }
 
-/// `tolman` with these arguments, started in `folder`.
+/// Returns the command `tolman` with these arguments, started in `folder`.
 fn command_in(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_tolman"));
     command
@@ -107,7 +107,7 @@ fn tolman(arguments: &[&str]) -> Ended {
     tolman_in(Path::new(env!("CARGO_TARGET_TMPDIR")), arguments)
 }
 
-/// `tolman` with this text on its stdin.
+/// Runs `tolman` with `text` on its stdin.
 fn tolman_fed(text: &str, arguments: &[&str]) -> Ended {
     let mut child = command_in(Path::new(env!("CARGO_TARGET_TMPDIR")), arguments)
         .stdin(Stdio::piped())

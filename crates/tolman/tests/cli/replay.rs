@@ -3,7 +3,7 @@ use std::path::Path;
 
 use crate::{CORRIDOR, folder, tolman_fed, tolman_in};
 
-/// Returns what the player is given.
+/// Returns the data that a replay's page gives the player.
 fn data(file: &Path) -> serde_json::Value {
     let page = fs::read_to_string(file).unwrap();
     let begin = "type=\"application/json\">";

@@ -10,17 +10,17 @@ use tolman_maps::cpm::{CpMap, JunctionId, Port};
 pub enum MapCheck {
     /// The map is the world: each place and corridor once, all ports in order.
     Right,
-    /// All that the map has is right, each thing once; some corridors are missing.
+    /// Everything on the map is right and there once; some corridors are missing.
     Partial,
-    /// All that the map has is right, but some things are there more than once.
+    /// Everything on the map is right, but some things are there more than once.
     Redundant,
-    /// Somewhere the map leads to another place than the world does.
+    /// Some way of the map leads to another place than in the world.
     Wrong,
 }
 
 impl PlaneMaze {
-    /// Compares a map with this world, given where the robot is on both. Only corridors that can be
-    /// reached count. O(fragments · log fragments).
+    /// Compares a map with this world, given the robot's position on both. Only corridors that can
+    /// be reached count. O(fragments · log fragments).
     #[must_use]
     pub fn check(&self, map: &CpMap, at: Port, truly_at: WorldPort) -> MapCheck {
         let Some(known) = self.correspondence(map, at, truly_at) else {

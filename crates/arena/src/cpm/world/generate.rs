@@ -25,9 +25,10 @@ pub struct MazeConfig {
     pub diagonals: f64,
     /// Common patterns of the dictionary, at least 2; the paper has 31.
     pub patterns: u32,
-    /// Observations to a cell's length, at least 1.
+    /// Number of observations along a cell's length, at least 1.
     pub observations_per_cell: f64,
-    /// Probability that an observation equals the one before it, 0 to 1: walls go on.
+    /// Probability that an observation equals the one before it, 0 to 1. It models walls that go
+    /// on.
     pub persistence: f64,
     /// Differences between corridors.
     pub likeness: Likeness,
@@ -59,7 +60,7 @@ pub enum MazeConfigError {
         /// Allowed values, in words.
         range: &'static str,
     },
-    /// Too many corridors: they cannot all differ.
+    /// Too many corridors: a thousand draws gave no corridors that all differ.
     #[error(
         "all of a thousand draws of corridor {corridor} look like another one: use more patterns or observations"
     )]
@@ -166,8 +167,8 @@ impl PlaneMaze {
         Self::random_of(dictionary, config, rng)
     }
 
-    /// Returns the same, of the patterns of a dictionary, whatever number the configuration has:
-    /// another maze for one robot.
+    /// Returns a maze like [`random`](Self::random), with the patterns of a dictionary instead of
+    /// its own. It makes another maze for one robot.
     ///
     /// # Errors
     /// [`MazeConfigError`] as [`random`](Self::random), or if there are less than two patterns.
@@ -306,8 +307,8 @@ fn openings(config: &MazeConfig, rng: &mut impl Rng) -> Vec<(u32, u32)> {
 }
 
 /// Returns random prototypes of 11 features from 0 to 1, like the paper's. They come in pairs that
-/// are each other half turned; with an odd number the last one is its own. To turn half round is to
-/// exchange the first five features with the next five, which keeps distances.
+/// are each other half turned; with an odd number the last one is its own. Turning half round
+/// exchanges the first five features with the next five, which keeps distances.
 fn random_dictionary(patterns: u32, rng: &mut impl Rng) -> Result<Dictionary, DictionaryError> {
     let mut prototypes: Vec<(Vec<f64>, PatternId)> = Vec::with_capacity(patterns as usize);
     for id in 0..patterns {
@@ -403,7 +404,7 @@ impl<'a> Looks<'a> {
     }
 }
 
-/// Makes the second half the first one seen the other way.
+/// Makes the second half the first one seen from the other end.
 fn mirror(patterns: &mut [PatternId], dictionary: &Dictionary) {
     let count = patterns.len();
     for place in 0..count / 2 {

@@ -72,7 +72,7 @@ pub(in crate::cpm) fn shortest_covering_walk(graph: &impl Graph, start: u32) -> 
     (repeated < u32::MAX).then_some(ends / 2 + repeated)
 }
 
-/// The places of a world, a corridor from each to the next.
+/// Graph of a world's places, with an arc from each to its neighbours along corridors.
 impl Graph for PlaneMaze {
     fn node_count(&self) -> usize {
         self.places.len()

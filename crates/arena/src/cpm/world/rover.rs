@@ -15,7 +15,7 @@ use tolman_systems::cpm::{Aim, Done, Explorer, JunctionDecision, Leg};
 pub struct WalkerNoise {
     /// Probability that an observation is replaced by another random pattern, 0 … 1.
     pub substitution: f64,
-    /// Probability of an additional observation, any pattern, after each; 0 to 1.
+    /// Probability of an additional random observation after each, 0 to 1.
     pub insertion: f64,
     /// Probability that an observation is not made; 0 to 1.
     pub deletion: f64,
@@ -47,12 +47,12 @@ impl WalkerNoise {
     };
 }
 
-/// Whether a rover counts its steps, and looks where ways lead.
+/// Ways in which a rover counts its steps and looks round.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reckoning {
-    /// Neither, as in the paper.
+    /// The rover does neither, as in the paper.
     None,
-    /// Dead reckoning with bounds that hold, and bearings.
+    /// The rover has dead reckoning with bounds that hold, and bearings.
     Bounded,
 }
 
@@ -71,7 +71,7 @@ pub struct PlaneWalker<'a> {
 pub enum WalkOutcome {
     /// The rover reached the end of the fragment.
     Arrived(Traversal),
-    /// The rover gave up, having observed this, and is back where it was, with the port it tried
+    /// The rover gave up after these observations. It is back where it was, with the port it tried
     /// behind it.
     TurnedBack(Vec<PatternId>),
 }
@@ -165,7 +165,8 @@ impl<'a> PlaneWalker<'a> {
     /// every fragment that was walked to its end.
     ///
     /// # Errors
-    /// [`CpmError`] if the explorer decides on a turn that is not there, or refuses what is met.
+    /// [`CpmError`] if the explorer decides on a turn that does not exist, or refuses an
+    /// observation.
     pub fn pursue<G: Rng>(
         &mut self,
         explorer: &mut Explorer,
@@ -215,8 +216,8 @@ impl<'a> PlaneWalker<'a> {
         })
     }
 
-    /// Returns where the ways out of the place lead where it is, from the one it came by, if it
-    /// looks.
+    /// Returns the bearings of the ways out of the place, counted from the way by which the robot
+    /// came. `None` if it does not look.
     fn looked(&self, rng: &mut impl Rng) -> Option<Bearings> {
         if self.reckoning == Reckoning::None {
             return None;

@@ -7,21 +7,20 @@ use crate::diktiometry::{Diktiometry, FrameId, PlaceId, Reached};
 /// A frame whose relation to the robot's position is informative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ActiveFrame {
-    /// The frame.
+    /// Id of the frame.
     pub frame: FrameId,
-    /// The robot in it, m.
+    /// Position of the robot in the frame, m.
     pub robot: PointBox,
 }
 
 impl ActiveFrame {
-    /// Returns the frame of a place where the robot is.
+    /// Returns the frame of the robot's place.
     pub(crate) fn at(map: &Diktiometry, place: PlaceId) -> Self {
         let (frame, robot) = map.site(place);
         Self { frame, robot }
     }
 
-    /// Returns the frame as a search from the frame that the robot is in at `here` would have
-    /// reached it.
+    /// Returns the frame as reached by a search from the frame in which the robot is at `here`.
     pub(crate) fn seen_from(&self, here: PointBox) -> Reached {
         Reached {
             frame: self.frame,
@@ -35,8 +34,8 @@ impl ActiveFrame {
 /// adding neighbors of active frames which appear both informative and relevant".
 ///
 /// `here` is the frame of the robot's place, with the robot in it. It is always active. If its box
-/// for a neighbour is better than the one carried along, the better one holds. At most `cap` frames
-/// are kept, those with the narrowest box. O(active frames · degree · log).
+/// for a neighbour is narrower than the one carried along, the narrower one is used. At most `cap`
+/// frames are kept, those with the narrowest box. O(active frames · degree · log).
 pub(crate) fn moved(
     map: &Diktiometry,
     active: &[ActiveFrame],

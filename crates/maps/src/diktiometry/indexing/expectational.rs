@@ -29,7 +29,8 @@ pub(crate) fn expected(
     candidates.collect()
 }
 
-/// Returns where the robot came from by the reverse of the action.
+/// Returns the places from which the reverse of the action led here. There are none in a changing
+/// world.
 fn back(
     map: &Diktiometry,
     projection: &Projection,

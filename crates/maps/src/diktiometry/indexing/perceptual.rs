@@ -1,4 +1,4 @@
-//! Places that look like the robot's view, wherever they are.
+//! Finds places that look like the robot's view, wherever they are.
 
 mod columns;
 mod feature_tree;
@@ -18,7 +18,8 @@ use crate::diktiometry::{Config, PathGraph, Percepts, PerceptualIndexing, PlaceI
 /// it.
 const DOUBLINGS: u32 = 3;
 
-/// All views of all places, by their columns and, if configured, by triangles of their edges.
+/// Index of all views of all places, by their columns and, if configured, by triangles of their
+/// edges.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ViewIndex {
     /// Whose they are.
@@ -40,8 +41,8 @@ impl ViewIndex {
         }
     }
 
-    /// Returns the places that look most like a percept, by id. Of the sets found within ever
-    /// larger distances it is the first that is not empty; later ones are not searched.
+    /// Returns the places that look most like a percept, by id. They are the first nonempty set
+    /// within ever larger distances; larger distances are not searched.
     pub(crate) fn most_alike(
         &self,
         percept: &Signature,
@@ -63,7 +64,7 @@ impl ViewIndex {
         sets.find(|set| !set.is_empty()).unwrap_or_default()
     }
 
-    /// Returns the places that look like a percept, by the measure that matchers use. By id.
+    /// Returns the places that look like a percept by the matchers' measure, in order of id.
     pub(crate) fn alike(
         &self,
         percept: &Signature,
@@ -78,7 +79,7 @@ impl ViewIndex {
         }
     }
 
-    /// Returns the places that stand now of some views.
+    /// Returns the standing places of some views.
     fn standing(&self, views: &[u32], paths: &PathGraph) -> Vec<PlaceId> {
         let places = views.iter().map(|view| self.places[*view as usize]);
         let standing: BTreeSet<PlaceId> = places.filter_map(|place| paths.resolve(place)).collect();
@@ -86,7 +87,7 @@ impl ViewIndex {
     }
 }
 
-/// A feature of a view is near one of the percept.
+/// Sign that a view matches the percept: one feature of each are near each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Vote {
     view: u32,

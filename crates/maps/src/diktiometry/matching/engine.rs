@@ -8,13 +8,13 @@ use crate::diktiometry::{Candidate, Matcher, PlaceId, Similarity, Situation};
 pub(crate) struct Choice {
     /// The maximal applicable matchers, the best first; never empty.
     pub(crate) matches: Vec<Chosen>,
-    /// Places at which the robot may be, but whose boxes are too wide to tell.
+    /// Places at which the robot may be, but whose boxes are too wide to decide.
     pub(crate) doubts: Vec<PlaceId>,
-    /// Places that the robot is at for certain, beside the best match: they are one with it.
+    /// Places, beside the best match, where the robot certainly is: they are the same place.
     pub(crate) twins: Vec<PlaceId>,
-    /// A place that was expected, where none of those was met: by its position or by its look.
+    /// An expected place, if none was met. It is excluded by its position or by its look.
     pub(crate) excluded: Option<Candidate>,
-    /// Whether the best match looks as it did.
+    /// Whether the best match looks as before.
     pub(crate) look: Similarity,
 }
 
@@ -22,11 +22,11 @@ pub(crate) struct Choice {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Chosen {
     pub(crate) matcher: Matcher,
-    /// None for a new place.
+    /// Matched place; `None` for a new place.
     pub(crate) candidate: Option<Candidate>,
     pub(super) look: Similarity,
-    /// Whether the robot can be at no other place: no other is near enough to it, or none that
-    /// looks like what the robot sees.
+    /// Whether the robot can be at no other place: no other is near enough, or none has the robot's
+    /// view.
     pub(super) is_certain: bool,
 }
 
@@ -42,7 +42,7 @@ impl Chosen {
         self.candidate.map(|candidate| candidate.place)
     }
 
-    /// Returns whether it posits no error of the map.
+    /// Returns whether the match posits no error of the map.
     fn is_normal(&self) -> bool {
         matches!(self.matcher, Matcher::Continue | Matcher::Link)
     }
@@ -114,8 +114,7 @@ pub(crate) fn choose(
     choice
 }
 
-/// Returns the candidates of a set that a matcher applies to; those that none can tell go to
-/// `doubts`.
+/// Returns the candidates of a set to which a matcher applies. Undecided ones go to `doubts`.
 fn matched(situation: &Situation<'_>, set: &[Candidate], doubts: &mut Vec<PlaceId>) -> Vec<Chosen> {
     let found = set
         .iter()
@@ -123,7 +122,7 @@ fn matched(situation: &Situation<'_>, set: &[Candidate], doubts: &mut Vec<PlaceI
     found.flatten().collect()
 }
 
-/// Returns the matches without an error of the first set that has some. If none has, returns those
+/// Returns the matches without an error of the first set that has any. If none has, returns those
 /// of the first set with any; these compete with a new place.
 fn applicable(sets: &[Vec<Chosen>]) -> Vec<Chosen> {
     let normal = |set: &Vec<Chosen>| -> Vec<Chosen> {
@@ -139,7 +138,7 @@ fn applicable(sets: &[Vec<Chosen>]) -> Vec<Chosen> {
     })
 }
 
-/// Returns the matches before which no other takes precedence, the best first.
+/// Returns the best matches, those over which no other takes precedence.
 fn maximal(situation: &Situation<'_>, applicable: &[Chosen]) -> Vec<Chosen> {
     let precedes = |other: &Chosen, one: &Chosen| {
         let grown = if other.matcher == Matcher::Alpha {

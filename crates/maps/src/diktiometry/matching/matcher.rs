@@ -39,8 +39,8 @@ pub(crate) struct Situation<'a> {
 }
 
 impl Situation<'_> {
-    /// Returns whether the robot is at a place that it cannot be at by its odometry. In a world
-    /// where an action leads to one place, what contradicts that is an outlier.
+    /// Returns whether the robot's place is one where it cannot be by its odometry. In a world
+    /// where an action leads to one place, such odometry is an outlier.
     fn is_led_to(&self, candidate: &Candidate, look: Similarity) -> bool {
         candidate.expectation == Expectation::Expected
             && look == Similarity::Alike
@@ -53,13 +53,13 @@ impl Situation<'_> {
 enum Applicable {
     /// A matcher applies.
     Matcher(Matcher),
-    /// None applies, but the robot may be there: the box is too wide to tell.
+    /// No matcher applies, but the robot may be there: the box is too wide to decide.
     Doubtful,
-    /// The robot is elsewhere.
+    /// The robot is not at the candidate.
     None,
 }
 
-/// Returns the matcher that applies to a candidate; one that none can tell goes to `doubts`. Its
+/// Returns the matcher that applies to a candidate. An undecided candidate goes to `doubts`. Its
 /// views are compared with the percept once.
 pub(super) fn find(
     candidate: &Candidate,
@@ -91,8 +91,8 @@ pub(super) fn find(
 
 /// Returns the matcher that applies to a candidate.
 ///
-/// The paper asks for a consistent view as well. Here an expected place where it is expected, and
-/// one that no other can be near, may look new: its view set grows.
+/// The paper asks for a consistent view as well. Here two kinds of places may look new, and their
+/// view set grows: an expected place at its expected position, and a place without others near.
 fn applicable(
     candidate: &Candidate,
     situation: &Situation<'_>,

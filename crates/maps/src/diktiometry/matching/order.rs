@@ -5,8 +5,8 @@ impl Situation<'_> {
     /// are those of the place that α-MATCH would grow.
     ///
     /// Source: paper, *Dynamic priorities*, for CONTINUE over LINK, and α-MATCH and new places
-    /// against β-MATCH. Beyond it: what needs no mapping error goes before what posits one, and
-    /// α-MATCH goes before a new place at young places. In a static world β-MATCH goes before a new
+    /// against β-MATCH. Beyond it, matchers without a mapping error precede those that posit one.
+    /// α-MATCH precedes a new place at young places. In a static world β-MATCH precedes a new
     /// place, as an action leads to one place there.
     pub(super) fn precedes(&self, a: Matcher, b: Matcher, visits: u32) -> bool {
         use Matcher::{Alpha, Beta, Continue, Link, NewPlace};

@@ -1,6 +1,6 @@
 use crate::diktiometry::{Percepts, Place, Signature, SignatureKind, Similarity, ViewRotation};
 
-/// Returns whether a place may look like this: one of its views does, or none is known.
+/// Returns whether a place may have this look: one of its views is similar, or none is known.
 pub(crate) fn agrees(place: &Place, percept: Option<&Signature>, percepts: &Percepts) -> bool {
     let (Percepts::Signatures(kind), Some(percept)) = (percepts, percept) else {
         return true;
@@ -14,7 +14,7 @@ pub(crate) fn share_a_view(a: &Place, b: &Place, percepts: &Percepts) -> bool {
     a.views.is_empty() || a.views.iter().any(|view| agrees(b, Some(view), percepts))
 }
 
-/// Returns the similarity of two places by their views, as the map learns from it.
+/// Returns the similarity of two places by their views, from which the map learns.
 pub(crate) fn similarity(a: &Place, b: &Place, percepts: &Percepts) -> Similarity {
     Similarity::of(share_a_view(a, b, percepts))
 }
@@ -42,8 +42,8 @@ pub(crate) fn alike(view: &Signature, other: &Signature, kind: &SignatureKind) -
     (0..offsets).any(|offset| view.agreement(other, offset, kind.tolerance) >= kind.enough())
 }
 
-/// Adds a percept to a place's view set, if it has none like it and room is left; returns whether
-/// it did.
+/// Adds a percept to a place's view set if no view is like it and there is room. Returns whether it
+/// did.
 pub(crate) fn remember(
     place: &mut Place,
     percept: Option<&Signature>,

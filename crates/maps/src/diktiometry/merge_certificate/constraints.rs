@@ -7,17 +7,17 @@ use tolman_geom::PointBox;
 use super::JournalSpan;
 use super::identities::Joined;
 
-/// The journal's knowledge of positions, as constraints on differences: along each axis, how far
-/// one place lies beyond another at most. The tightest of each pair is kept.
+/// The journal's knowledge of positions, as constraints on differences. A constraint bounds, along
+/// one axis, how far one place lies beyond another. The tightest of each pair is kept.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Constraints {
     /// Tightest bounds from class to class of places.
     tightest: BTreeMap<usize, BTreeMap<usize, [Most; 2]>>,
-    /// Whether they were found to contradict each other: that stays so, whatever comes later.
+    /// Whether the constraints were found to contradict each other, which later ones cannot undo.
     contradict: bool,
 }
 
-/// An upper bound for how far one place is beyond another, m.
+/// Upper bound of the distance by which one place lies beyond another along an axis, m.
 #[derive(Clone, Copy, Debug)]
 struct Most {
     by: f64,
@@ -25,7 +25,7 @@ struct Most {
 }
 
 impl Constraints {
-    /// Takes in where the place at the end of a span lies as seen from the one at its beginning, m.
+    /// Takes in the position of the end of a span relative to its beginning, m.
     pub(super) fn add(&mut self, ends: [usize; 2], span: JournalSpan, displacement: PointBox) {
         let [begin, end] = ends;
         let PointBox { x, y } = displacement;

@@ -3,8 +3,8 @@ use alloc::vec::Vec;
 
 use crate::diktiometry::{Action, Config, WorldKind};
 
-/// Visits that are known to be to one place, and all that follows. In a static world an action
-/// leads from one place to one place, and its reverse from there back.
+/// Visits known to be to one place, with all consequences. In a static world an action leads from
+/// one place to one place, and its reverse back.
 ///
 /// A class is named by the number of any visit in it.
 #[derive(Clone, Debug)]
@@ -12,16 +12,16 @@ pub(super) struct Identities<'a> {
     config: &'a Config,
     /// For each visit, another visit of its class, or itself.
     parents: Vec<usize>,
-    /// For each visit that stands for a class, the visits to which actions lead from it.
+    /// For each visit that represents a class, the visits to which actions lead from it.
     leads: Vec<BTreeMap<Action, usize>>,
 }
 
 /// Two classes have become one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Joined {
-    /// The visit that stands for both.
+    /// Visit that represents both.
     pub(super) kept: usize,
-    /// The visit that stood for the other.
+    /// Visit that represented the other class.
     pub(super) lost: usize,
 }
 
@@ -40,7 +40,8 @@ impl<'a> Identities<'a> {
         self.parents.len()
     }
 
-    /// Returns the visit that stands for the class of a visit, the first of it. O(joins) at worst.
+    /// Returns the visit that represents the class of a visit: the first of the class. O(joins) at
+    /// worst.
     pub(super) fn find(&self, mut visit: usize) -> usize {
         while self.parents[visit] != visit {
             visit = self.parents[visit];
@@ -53,25 +54,26 @@ impl<'a> Identities<'a> {
         self.find(one) == self.find(other)
     }
 
-    /// Returns where an action leads from the place of a visit, as the number of a visit there.
+    /// Returns the visit to which an action leads from the place of `visit`, or `None` if it is
+    /// unknown.
     pub(super) fn leads(&self, visit: usize, action: Action) -> Option<usize> {
         let to = self.leads[self.find(visit)].get(&action)?;
         Some(self.find(*to))
     }
 
-    /// Returns where the robot has gone from the place of a visit.
+    /// Returns the actions taken from the place of a visit, each with the visit to which it led.
     pub(super) fn ways(&self, visit: usize) -> impl Iterator<Item = (Action, usize)> {
         let ways = self.leads[self.find(visit)].iter();
         ways.map(|(action, to)| (*action, self.find(*to)))
     }
 
-    /// Takes in a visit after a blocked action: the robot is where it was.
+    /// Takes in a visit after a blocked action: the robot has not moved.
     pub(super) fn stay(&mut self) {
         self.parents.push(self.find(self.len() - 1));
         self.leads.push(BTreeMap::new());
     }
 
-    /// Takes in a visit that an action led to from the one before, and returns what follows.
+    /// Takes in a visit after a successful action, and returns the classes that it joins.
     pub(super) fn arrive(&mut self, action: Action) -> Vec<Joined> {
         let (from, to) = (self.find(self.len() - 1), self.len());
         self.parents.push(to);
@@ -86,12 +88,13 @@ impl<'a> Identities<'a> {
         self.join_all(equal)
     }
 
-    /// Takes in that two visits are to one place, and returns what follows.
+    /// Takes in that two visits are to one place, and returns the classes that it joins.
     pub(super) fn join(&mut self, one: usize, other: usize) -> Vec<Joined> {
         self.join_all(Vec::from([[one, other]]))
     }
 
-    /// Notes where an action leads; returns what is one place with it in a static world.
+    /// Records that an action leads from one visit to another. Returns the pairs that are one place
+    /// in a static world.
     fn lead(&mut self, from: usize, action: Action, to: usize) -> Option<[usize; 2]> {
         let known = self.leads[from].insert(action, to)?;
         (self.config.world == WorldKind::Static).then_some([known, to])
@@ -121,8 +124,8 @@ mod tests {
 
     use super::*;
 
-    /// Returns the classes by direct application of the rules. Visits after the same action from
-    /// one place are to one place, and so is one that a reverse leads back to.
+    /// Computes the classes directly by the rules. Visits after the same action from one place are
+    /// to one place, and so is a visit to which a reverse leads back.
     fn by_the_letter(config: &Config, actions: &[Action], joined: &[[usize; 2]]) -> Vec<usize> {
         let mut class: Vec<usize> = (0..=actions.len()).collect();
         let rename = |class: &mut Vec<usize>, one: usize, other: usize| {

@@ -4,7 +4,7 @@ use super::{LookEvidence, LookPair};
 use crate::diktiometry::{Config, Journal, Looks, Percepts, Signature, alike};
 
 impl LookEvidence {
-    /// Returns the evidence of two visits alone, with a provisional probability of 1.
+    /// Returns the evidence of one pair of visits, with a provisional probability of 1.
     pub(super) fn first(visits: [usize; 2], looks: Looks) -> Self {
         let after = None;
         Self {
@@ -14,8 +14,8 @@ impl LookEvidence {
         }
     }
 
-    /// Returns the probability that the agreement is a coincidence. The number of places that one
-    /// may be mistaken for is taken as the number of kinds of looks, plus two.
+    /// Returns the probability that the agreement is a coincidence. It assumes as many candidate
+    /// places as there are kinds of looks, plus two.
     pub(super) fn stated(&self, config: &Config, journal: &Journal) -> f64 {
         let others = f64::from(self.looks.kinds) + 2.0;
         let chance = self.looks.chance(self.kinds(config, journal));
@@ -38,7 +38,7 @@ impl LookEvidence {
     }
 }
 
-/// Returns what was seen at a visit.
+/// Returns the signature seen at a visit, or `None` if the robot did not look.
 pub(super) fn percept(visit: usize, journal: &Journal) -> Option<&Signature> {
     match visit.checked_sub(1) {
         None => journal.start.percept.as_ref(),
@@ -46,7 +46,7 @@ pub(super) fn percept(visit: usize, journal: &Journal) -> Option<&Signature> {
     }
 }
 
-/// Returns whether two visits look alike; they do not if nothing was seen.
+/// Returns whether two visits look alike; false if a look is missing.
 pub(super) fn look_alike(one: usize, other: usize, config: &Config, journal: &Journal) -> bool {
     let Percepts::Signatures(kind) = &config.percepts else {
         return false;

@@ -17,14 +17,14 @@ use crate::diktiometry::{
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CertifiedMerges {
-    /// Certificates in the order of the merges: each rests on those before it.
+    /// Certificates in the order of the merges. Each rests on those before it.
     pub certificates: Vec<MergeCertificate>,
-    /// Visits that the map takes to be to one place, without a certificate.
+    /// Visits that the map identifies without a certificate.
     pub unproven: Vec<[usize; 2]>,
 }
 
-/// Goes through a journal as an observer does, and has a certificate for whatever it took for one
-/// place. A way that it went before, in a static world, needs none.
+/// Goes through a journal as an observer does, and certifies each identity that the observer
+/// claimed. In a static world, a way gone before needs no certificate.
 ///
 /// O(moves) and, for each certificate, O(places · ways).
 ///
@@ -61,12 +61,12 @@ struct Prover<'a> {
     config: &'a Config,
     journal: &'a Journal,
     identities: Identities<'a>,
-    /// Identities that hold without looks.
+    /// Identities that do not rest on looks.
     proven: Identities<'a>,
     constraints: Constraints,
     /// Visits of each class that look different.
     views: BTreeMap<usize, Vec<usize>>,
-    /// A visit to each place of the map.
+    /// First visit to each place of the map.
     visits: BTreeMap<PlaceId, usize>,
     said: CertifiedMerges,
 }
@@ -103,8 +103,8 @@ impl Prover<'_> {
             .extend(open.into_iter().filter_map(|claim| claim.last().copied()));
     }
 
-    /// Returns the identities that the map has added. Each claim is several pairs of visits, one of
-    /// which is enough.
+    /// Returns the identities that the map claims after a move. Each claim is several pairs of
+    /// visits, one of which is enough.
     fn claims(
         &mut self,
         visit: usize,

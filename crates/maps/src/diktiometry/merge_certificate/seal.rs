@@ -32,7 +32,7 @@ impl MergeCertificate {
         certificate
     }
 
-    /// Returns what the seal of the certificate should be.
+    /// Returns the seal that matches the certificate's contents.
     pub(super) fn checksum(&self) -> u64 {
         let mut seal = Seal(0xcbf2_9ce4_8422_2325);
         seal.take_all(self.visits);

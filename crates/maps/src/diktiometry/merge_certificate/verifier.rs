@@ -11,44 +11,49 @@ use crate::diktiometry::{Config, Journal, MoveOutcome, Percepts};
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum MergeCertificateError {
-    /// The certificate is not as it was made.
-    #[error("certificate {number} was changed: its seal does not fit")]
+    /// The certificate was changed after it was made.
+    #[error("certificate {number} was changed, as its seal does not fit; certify the merges again")]
     Changed {
         /// Number of the certificate.
         number: usize,
     },
     /// The journal has no such visit.
-    #[error("certificate {number} names visit {visit}, but the journal has only {visits} visits")]
+    #[error(
+        "certificate {number} names visit {visit}, but the journal has only {visits} visits; give the journal it was made from"
+    )]
     NoSuchVisit {
         /// Number of the certificate.
         number: usize,
-        /// The visit.
+        /// Number of the visit.
         visit: usize,
-        /// Number of visits that there are.
+        /// Number of visits in the journal.
         visits: usize,
     },
-    /// A route or a chain of looks does not hang together.
+    /// A route or a chain of looks has a gap.
     #[error(
-        "certificate {number} has a gap: two visits that it joins are not known to be at one place"
+        "certificate {number} has a gap, as two visits that it joins are not known to be at one place; certify the merges again"
     )]
     Gap {
         /// Number of the certificate.
         number: usize,
     },
     /// The certificate claims to rest on looks and does not, or the reverse.
-    #[error("certificate {number} states wrongly whether it rests on looks")]
+    #[error(
+        "certificate {number} states wrongly whether it rests on looks; certify the merges again"
+    )]
     Ground {
         /// Number of the certificate.
         number: usize,
     },
-    /// The certificate's looks prove nothing: there is no pair, or they are as likely as not at two
-    /// places.
-    #[error("certificate {number} has looks that fit two places as well as one")]
+    /// The certificate's looks prove nothing: there is no pair, or a coincidence is as likely.
+    #[error(
+        "certificate {number} has looks that fit two places as well as one; collect more looks"
+    )]
     NoEvidence {
         /// Number of the certificate.
         number: usize,
     },
-    /// Both looks are at the same place, so they agree without being evidence.
+    /// Both looks are at the same place, so that their agreement is no evidence.
     #[error(
         "certificate {number} counts looks at visits {one} and {other}, which are to the same place"
     )]
@@ -57,7 +62,7 @@ pub enum MergeCertificateError {
         number: usize,
         /// One visit.
         one: usize,
-        /// The other.
+        /// Number of the second visit.
         other: usize,
     },
     /// A span is invalid: it has no moves, more than five, or a blocked one.
@@ -65,7 +70,7 @@ pub enum MergeCertificateError {
     NoSpan {
         /// Number of the certificate.
         number: usize,
-        /// The span.
+        /// Span without known bounds.
         span: JournalSpan,
     },
     /// The bounds leave room for two places.
@@ -85,17 +90,17 @@ pub enum MergeCertificateError {
         number: usize,
         /// One visit.
         one: usize,
-        /// The other.
+        /// Number of the second visit.
         other: usize,
     },
-    /// The probability is another.
+    /// The probability differs from the one computed again.
     #[error("certificate {number} states a probability of {stated}, but it is {found}")]
     Chance {
         /// Number of the certificate.
         number: usize,
-        /// Stated in the certificate.
+        /// Probability stated in the certificate.
         stated: f64,
-        /// Found by the checker.
+        /// Probability that the checker found.
         found: f64,
     },
 }
@@ -135,7 +140,7 @@ struct Verifier<'a> {
     config: &'a Config,
     journal: &'a Journal,
     identities: Identities<'a>,
-    /// Identities that hold without looks.
+    /// Identities that do not rest on looks.
     proven: Identities<'a>,
 }
 
@@ -192,7 +197,7 @@ impl Verifier<'_> {
         }
     }
 
-    /// Returns where the second visit's place lies as seen from the first's, by all routes, m.
+    /// Returns the bounds on the second visit's place relative to the first's, m, by all routes.
     fn between(
         &self,
         number: usize,
@@ -270,7 +275,8 @@ impl Verifier<'_> {
     }
 }
 
-/// Returns the minimum distance between the places of two visits if they are different, m.
+/// Returns the minimum distance between the places of two visits, m, as if they were different
+/// places.
 pub(super) fn least_distance([one, other]: [usize; 2], config: &Config, journal: &Journal) -> f64 {
     let may_be_alike = match config.percepts {
         Percepts::None => true,

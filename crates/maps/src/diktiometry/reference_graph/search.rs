@@ -12,9 +12,9 @@ use crate::diktiometry::{FrameId, SearchLimits};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reached {
     pub(crate) frame: FrameId,
-    /// Its origin in the frame where the search began, m.
+    /// Position of its origin in the frame where the search began, m.
     pub(crate) position: PointBox,
-    /// Relations followed on the way.
+    /// Number of relations followed to it.
     pub(crate) hops: u32,
 }
 
@@ -84,13 +84,13 @@ pub(crate) fn search(
 #[derive(Clone, Copy)]
 enum Way {
     Unknown,
-    /// The width of the narrowest way so far, m.
+    /// Width of the narrowest way so far, m.
     Seen(f64),
-    /// The frame's number among those reached.
+    /// Number of the frame among those reached.
     Reached(u32),
 }
 
-/// A width as a number of the same order: no width is negative.
+/// Width as a whole number of the same order; widths are never negative.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Width(u64);
 

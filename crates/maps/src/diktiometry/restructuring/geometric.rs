@@ -20,7 +20,7 @@ pub(super) struct Pair {
     pub(super) offset: PointBox,
 }
 
-/// Returns the places of the frames around that of `place`, with their positions in its frame, m.
+/// Returns the places of nearby frames, with their positions in the frame of `place`, m.
 pub(super) fn around(map: &Diktiometry, place: PlaceId) -> Vec<(PlaceId, PointBox)> {
     let relations = &map.frame(map.place(place).frame).relations;
     let places = relations.iter().flat_map(|relation| {
@@ -30,8 +30,8 @@ pub(super) fn around(map: &Diktiometry, place: PlaceId) -> Vec<(PlaceId, PointBo
     places.collect()
 }
 
-/// Returns the pairs of places that may be one. Once two places are merged, those around them
-/// follow. There may be O(places²) pairs, so they are not stored.
+/// Returns the pairs of places that may be one. After a merge, the places around it are tried next.
+/// There may be O(places²) pairs, so they are not stored.
 pub(super) fn meeting(near: &[(PlaceId, PointBox)]) -> impl Iterator<Item = Pair> {
     near.iter().enumerate().flat_map(|(number, &(a, at))| {
         let others = near.iter().skip(number + 1);
@@ -49,8 +49,8 @@ pub(super) fn is_nearness_noted(map: &Diktiometry, place: PlaceId) -> bool {
     notes.iter().any(|note| note.ground == Ground::Position)
 }
 
-/// Returns the notes at `place`, taken from it, with the places they mean by their names now; those
-/// that were settled elsewhere are left out.
+/// Takes the notes at `place` and returns them with the present ids of their places. Notes settled
+/// elsewhere are left out.
 pub(super) fn take_notes(map: &mut Diktiometry, place: PlaceId) -> Vec<MergeNote> {
     let mut notes = core::mem::take(&mut map.place_mut(place).notes);
     let mut seen: Vec<PlaceId> = Vec::new();
@@ -66,8 +66,7 @@ pub(super) fn take_notes(map: &mut Diktiometry, place: PlaceId) -> Vec<MergeNote
     notes
 }
 
-/// Returns the pairs noted at `place`, with what is known of them now. Notes that are settled are
-/// taken away.
+/// Returns the pairs noted at `place`, with their present bounds. Settled notes are removed.
 pub(super) fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> Vec<Pair> {
     let notes = take_notes(map, place);
     if notes.is_empty() {
@@ -116,7 +115,7 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
     }
 }
 
-/// Returns the minimum distance of the two if they are different, m.
+/// Returns the minimum distance of the two places, m, as if they were different.
 fn least_distance(map: &Diktiometry, pair: &Pair, config: &Config) -> f64 {
     let [a, b] = [pair.a, pair.b].map(|place| map.place(place));
     if share_a_view(a, b, &config.percepts) {
@@ -147,8 +146,8 @@ fn heaviest_first(mut estims: Vec<Estim>) -> Vec<Estim> {
     estims
 }
 
-/// Returns the diagnosis by which a place's estims are two. "Eventually the estim set will contain
-/// two estims with weight greater than a threshold, and with weight ratio (max/min) less than a
+/// Returns the diagnosis that a place's estims are two. "Eventually the estim set will contain two
+/// estims with weight greater than a threshold, and with weight ratio (max/min) less than a
 /// threshold. So when this occurs, a split is indicated."
 pub(super) fn split(map: &Diktiometry, place: PlaceId, config: &Config) -> Option<Diagnosis> {
     let limits = &config.restructuring;

@@ -53,7 +53,7 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
     Verdict::Abstain
 }
 
-/// Returns whether the ends of a link of each place may be one place, if the two places are.
+/// Returns whether the ends of two links may be one place, given that their beginnings are.
 fn may_end_alike(map: &Diktiometry, pair: &Pair, of_a: &Link, of_b: &Link) -> bool {
     let (a, b) = (map.related(pair.a, of_a.to), map.related(pair.b, of_b.to));
     of_a.to == of_b.to
@@ -67,7 +67,7 @@ fn may_end_alike(map: &Diktiometry, pair: &Pair, of_a: &Link, of_b: &Link) -> bo
 ///
 /// Images of different *actions* only show that the robot turned in different ways. A split is
 /// indicated if the same action led to different places. Two incoming links belong together if some
-/// action led from both to the same place. They belong apart if none did although both know the
+/// action led from both to the same place. They are separate if none did although both know the
 /// action. O(degree²).
 pub(super) fn split(map: &Diktiometry, place: PlaceId, config: &Config) -> Option<Diagnosis> {
     let limits = &config.restructuring;
@@ -103,13 +103,13 @@ pub(super) fn split(map: &Diktiometry, place: PlaceId, config: &Config) -> Optio
     })
 }
 
-/// The links taken after one.
+/// Links taken after one link.
 struct Image {
     link: LinkId,
     taken: Vec<Taken>,
 }
 
-/// A link that was taken after another.
+/// Link that was taken after another.
 struct Taken {
     action: Action,
     to: PlaceId,

@@ -1,8 +1,8 @@
-//! Looks as evidence of identity, where the map has learned that they are.
+//! Merges places by looks, where the map has learned that looks are evidence of identity.
 //!
 //! Beyond the paper, which compares histories of places that were considered and rejected. After a
-//! long way the box of a position has room for several places. Where looks are many, the places
-//! along the same actions tell which it is.
+//! long way the box of a position has room for several places. Where there are many looks, the
+//! places along the same actions decide.
 
 use alloc::vec::Vec;
 
@@ -14,7 +14,7 @@ use crate::diktiometry::{
     Config, Diktiometry, PlaceId, SearchLimits, Similarity, Use, share_a_view, similarity,
 };
 
-/// Pairs of places that are compared at most.
+/// Maximum number of pairs of places that are compared.
 const COMPARED: usize = 64;
 
 /// Number of places that one may be mistaken for if an action relates the two to one place
@@ -26,14 +26,14 @@ const ELSEWHERE: f64 = 1e-3;
 /// actions.
 ///
 /// The same actions lead from one place to the same places. If the two are different, so are the
-/// places that the same actions lead to. Each pair of those looks alike with a probability of about
-/// p ([`Looks`](crate::diktiometry::Looks)).
+/// ends of the same actions. Each pair of ends looks alike with a probability of about p
+/// ([`Looks`](crate::diktiometry::Looks)).
 ///
 /// With k kinds of looks in agreement and n places to be mistaken for, the error probability is at
 /// most about n · pᵏ. There p is the mean over all pairs, and some looks are commoner than others.
-/// The number of places is taken as that of the kinds of looks, plus two. The number on the map
-/// says nothing while it is not folded. If one action led from one place to both, a mistake
-/// requires that the action has led elsewhere.
+/// The number of places n is estimated as the number of kinds of looks, plus two. The number of
+/// places on the map is no measure while it is not folded. If one action led from one place to
+/// both, a mistake requires that the action has led elsewhere.
 pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
     if config.restructuring.look_merge == Use::Off {
         return Verdict::Abstain;
@@ -55,7 +55,7 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
     Verdict::propose_if(enough)
 }
 
-/// Returns whether one action led to both from one place, or from both to one from where the action
+/// Returns whether one action led to both from one place, or from both to one place and the action
 /// back leads to either.
 fn share_a_way(map: &Diktiometry, pair: &Pair, config: &Config) -> bool {
     let Pair { a, b, .. } = *pair;
@@ -70,15 +70,15 @@ fn share_a_way(map: &Diktiometry, pair: &Pair, config: &Config) -> bool {
         })
 }
 
-/// Returns where b lies as seen from a by all that is known, m: geometry has its say before a
-/// merge. O(frames · degree · log frames).
+/// Returns the bounds on b's position relative to a by all that is known, m: geometry has its say
+/// before a merge. O(frames · degree · log frames).
 pub(super) fn offset_anywhere(map: &Diktiometry, a: PlaceId, b: PlaceId) -> PointBox {
     let known = map.displacement(a, b, &SearchLimits::UNLIMITED);
     known.unwrap_or(PointBox::UNBOUNDED)
 }
 
 /// Returns the pairs noted at `place` that are one by their looks, without a search of the
-/// neighbourhood. Notes that looks settle are taken away.
+/// neighbourhood. Settled notes are removed.
 pub(super) fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> Vec<Pair> {
     let Some(wanted) = wanted_anywhere(map, config) else {
         return Vec::new();
@@ -112,8 +112,8 @@ pub(crate) fn learn_of_two(
     map.looks.count(look, neighbours);
 }
 
-/// Returns how the places look from which the same action leads to the pair, or else those to which
-/// it leads from the pair. `None` if neither exist.
+/// Returns the similarity of two neighbours, one of each place of the pair. The same action leads
+/// from them to the pair, or else from the pair to them. `None` if neither exist.
 fn neighbours(map: &Diktiometry, [a, b]: [PlaceId; 2], config: &Config) -> Option<Similarity> {
     let paths = &map.paths;
     let before = paths.incoming(a).find_map(|(_, link)| {
@@ -132,8 +132,8 @@ fn neighbours(map: &Diktiometry, [a, b]: [PlaceId; 2], config: &Config) -> Optio
     Some(similarity(one, other, &config.percepts))
 }
 
-/// Returns how many kinds of looks have to agree where geometry knows nothing, or `None` if looks
-/// tell nothing there.
+/// Returns the number of kinds of looks that have to agree where geometry knows nothing. `None` if
+/// looks alone decide nothing there.
 pub(crate) fn wanted_anywhere(map: &Diktiometry, config: &Config) -> Option<usize> {
     match config.restructuring.look_merge {
         Use::On => enough(map, f64::INFINITY, config),
@@ -153,9 +153,10 @@ fn enough(map: &Diktiometry, room: f64, config: &Config) -> Option<usize> {
 pub(super) enum Agreement {
     /// Enough kinds of looks agree.
     Enough,
-    /// Fewer do, as far as is known.
+    /// Fewer kinds agree, as far as is known.
     TooLittle,
-    /// The two are not one: a look differs, or geometry tells two places apart that would be one.
+    /// The two are different: a look differs, or two places that would be one are told apart by
+    /// geometry.
     Broken,
 }
 

@@ -6,8 +6,8 @@ use crate::diktiometry::{
     Config, Diktiometry, Exits, Fate, Link, LinkId, Percepts, PlaceId, Successor, merge_estims,
 };
 
-/// Makes one place of two, the older; none, and nothing done, if what is known of their frames
-/// forbids it.
+/// Merges two places into the older one. Returns `None`, with nothing changed, if the relations of
+/// their frames forbid it.
 ///
 /// O(relations and links of the younger · log degree of the older).
 pub(super) fn merge(
@@ -56,7 +56,7 @@ pub(super) fn merge(
 }
 
 /// Puts both places at one point and transfers the relations of one's frame to the other's. Returns
-/// the position of the frame that was left in that of `kept`. `None`, with nothing done, if that
+/// the position of the abandoned frame in that of `kept`. `None`, with nothing done, if that
 /// contradicts a relation.
 fn join_frames(map: &mut Diktiometry, kept: PlaceId, lost: PlaceId) -> Option<PointBox> {
     let [(home, there), (left, here)] = [kept, lost].map(|place| map.site(place));
@@ -90,7 +90,7 @@ fn join_frames(map: &mut Diktiometry, kept: PlaceId, lost: PlaceId) -> Option<Po
     Some(shift)
 }
 
-/// Moves the ends of `lost`'s links to `kept`; links that become the same one add their counts.
+/// Moves the ends of the links of `lost` to `kept`. Links that become equal add their counts.
 fn move_links(map: &mut Diktiometry, kept: PlaceId, lost: PlaceId) {
     let mut renamed: Vec<(LinkId, LinkId)> = Vec::new();
     let mut ids = map.place(lost).links();
@@ -130,7 +130,7 @@ fn insert(list: &mut Vec<LinkId>, id: LinkId) {
     }
 }
 
-/// Calls a link by its new name where it follows other links.
+/// Renames a link where it is listed as a successor of other links.
 fn rename(map: &mut Diktiometry, old: LinkId, new: LinkId) {
     let tail = map.link(new).from;
     for before in map.place(tail).incoming.clone() {

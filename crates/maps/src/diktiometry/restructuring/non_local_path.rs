@@ -8,7 +8,7 @@ use crate::diktiometry::{Config, Diktiometry, PlaceId, TrackEntry, Use};
 /// Minimum number of moves of a history that counts as evidence.
 const LEAST: usize = 3;
 
-/// Leaves a copy of a track's history at the place it matched, if there was any doubt in it. "When
+/// Leaves a copy of a track's history at the place it matched, if the history has any doubt. "When
 /// a track matches a place, it deposits copies of its histories at the place".
 pub(crate) fn deposit(
     map: &mut Diktiometry,
@@ -41,9 +41,9 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
     Verdict::propose_if(limits.geometric_merge.trusts_paths() && count >= limits.histories)
 }
 
-/// Returns the number of pairs of places along a history that could also have ended at the other
-/// place with the same actions. That place was considered but rejected. Counts from the newest on,
-/// as far back as the map has the links.
+/// Returns the number of places along a history at which the track could also have been, ending at
+/// the other place with the same actions. Those places were considered but rejected. Counts from
+/// the newest on, as far back as the map has the links.
 fn seam(map: &Diktiometry, history: &[TrackEntry], other: PlaceId) -> usize {
     let mut pairs = 0;
     let mut there = other;

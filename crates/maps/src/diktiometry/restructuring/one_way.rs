@@ -7,8 +7,8 @@ use super::Verdict;
 use super::geometric::Pair;
 use crate::diktiometry::{Action, Config, Diktiometry, PlaceId, WorldKind};
 
-/// Returns two places that one action leads to from one place are one. Geometry has its say all the
-/// same. O(degree²).
+/// Returns a pair of places that are one because one action leads to both from one place. Geometry
+/// may still forbid the merge. O(degree²).
 pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
     if config.world == WorldKind::Changing {
         return Verdict::Abstain;
@@ -17,8 +17,8 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
     Verdict::propose_if(beside(map, pair.a, config).any(leads_to_both))
 }
 
-/// Returns the places and actions that lead to a place: those that did, and those whose reverse led
-/// there from it.
+/// Returns the places and actions that lead to a place: by their own links, or by the reverse of
+/// its links.
 fn beside<'a>(
     map: &'a Diktiometry,
     place: PlaceId,

@@ -5,12 +5,12 @@ use tolman_geom::{Interval, PointBox};
 use super::Diagnosis;
 use crate::diktiometry::{Counts, Diktiometry, Estim, Link, LinkId, LinkStatus, PlaceId};
 
-/// Makes two places of one: the new one, in the same frame.
+/// Splits a place in two; the new one is in the same frame.
 ///
 /// By estims, "the two new places created by a split each take the sides of the original position
 /// estimate indicated by their respective estims. Action link sets are pruned eventually by the
 /// transient elision mechanism": both have all links. By links, each takes the incoming links of
-/// its side and what was taken after them.
+/// its side and the links taken after them.
 pub(super) fn split(map: &mut Diktiometry, place: PlaceId, diagnosis: &Diagnosis) -> PlaceId {
     let here = map.place(place).clone();
     let new = map.add_place(here.frame, here.position);
@@ -65,7 +65,7 @@ pub(super) fn split(map: &mut Diktiometry, place: PlaceId, diagnosis: &Diagnosis
     new
 }
 
-/// Returns a link of the same action as another, with a count of one, as its worth has yet to show.
+/// Returns a link of the same action as another, with a count of one, since it is not proven yet.
 fn copy(map: &mut Diktiometry, link: &Link, from: PlaceId, to: PlaceId) -> LinkId {
     let id = map.paths.link_to(from, link.action, to);
     let new = map.link_mut(id);

@@ -7,7 +7,7 @@ use crate::diktiometry::{
     Config, Counts, Diktiometry, Fate, LinkStatus, PlaceId, Restructured, Transients, Use,
 };
 
-/// Elides links from and to `place`, and the places they lead to, that are met far less often than
+/// Elides links from and to `place`, and the places at their ends, that are met far less often than
 /// expected. Returns the changes. A place with tracks (`occupied`) stays. O(degree).
 pub(super) fn elide(
     map: &mut Diktiometry,
@@ -39,7 +39,7 @@ pub(super) fn elide(
     done
 }
 
-/// Takes a place out of the map, with its links.
+/// Removes a place and its links from the map.
 pub(crate) fn elide_place(map: &mut Diktiometry, id: PlaceId) {
     for link in map.place(id).links() {
         map.paths.remove_link(link);

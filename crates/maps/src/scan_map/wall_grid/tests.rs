@@ -5,7 +5,7 @@ use tolman_robot::Ring;
 
 use super::*;
 
-/// What a grid holds after some scans, written as plainly as it goes.
+/// Returns a cell's counts after some scans, computed as plainly as possible.
 fn plainly(scans: &[(Point, Heading, Scan)], index: GridIndex) -> [u32; 2] {
     let (mut hits, mut passes) = (0, 0);
     for (from, heading, scan) in scans {
@@ -31,7 +31,7 @@ fn plainly(scans: &[(Point, Heading, Scan)], index: GridIndex) -> [u32; 2] {
     [hits.min(255), passes.min(255)]
 }
 
-/// Distance to the nearest wall cell, in units; [`FAR`] beyond the reach.
+/// Returns the distance to the nearest wall cell, in units; [`FAR`] beyond the reach.
 fn nearest_wall(grid: &WallGrid, [column, row]: GridIndex) -> u8 {
     let off = |range: i32| -range..=range;
     let near = off(8).flat_map(|x| off(8).map(move |y| [x, y]));
@@ -103,7 +103,7 @@ proptest! {
         }
     }
 
-    /// Between the middles of cells distances are in proportion.
+    /// Checks that distances between the middles of cells are interpolated in proportion.
     #[test]
     fn distances_are_interpolated(scans in scans(), x in -1.0..1.0_f64, y in -1.0..1.0_f64) {
         let mut grid = WallGrid::default();

@@ -15,7 +15,7 @@ fn dictionary(places: &[f64]) -> Dictionary {
     dictionary
 }
 
-/// The least cost of aligning two sequences, by trying every way.
+/// Returns the least cost of aligning two sequences, by trying every way.
 fn cost(alignment: &Alignment, apart: &dyn Fn(u32, u32) -> f64, a: &[u32], b: &[u32]) -> f64 {
     let (Some((last_a, before_a)), Some((last_b, before_b))) = (a.split_last(), b.split_last())
     else {

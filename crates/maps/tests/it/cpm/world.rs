@@ -96,8 +96,8 @@ impl World {
         ways.into_iter().filter(is_open).collect()
     }
 
-    /// Returns where a corridor ends, the way that leads back into it, and its cells after the
-    /// first.
+    /// Returns the last cell of a corridor, the way that leads back into it, and the steps to its
+    /// end.
     fn corridor(&self, from: Cell, way: Direction) -> (Cell, Direction, Vec<Direction>) {
         let (mut at, mut heading, mut cells) = (from, way, Vec::new());
         loop {
@@ -167,7 +167,7 @@ impl World {
     }
 }
 
-/// East is 0, counter-clockwise.
+/// Returns the heading of a direction, rad: 0 is east, counter-clockwise.
 fn radians(way: Direction) -> f64 {
     match way {
         Direction::East => 0.0,

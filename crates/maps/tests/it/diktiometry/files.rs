@@ -5,7 +5,7 @@ use tolman_maps::diktiometry::{JournalLength, MapFile, MapFileError};
 
 use super::walk::{ODOMETRY, Walk, open, painted};
 
-/// Among walls of chance colours, so that views are indexed.
+/// Returns a walk among walls of random colours, so that views are indexed.
 fn walked() -> Walk {
     let mut config = painted();
     config.journal = JournalLength::All;

@@ -46,8 +46,8 @@ fn a_random_walk_teaches_a_world_of_alike_places() {
     assert!(by_map < 0.5 * by_odometry, "{by_map} {by_odometry}");
 }
 
-/// The defect that the paper's restructurers are there for: a mapper that takes boxes that meet for
-/// the same place confuses places.
+/// A mapper that merges any boxes that meet confuses places. The paper's restructurers prevent
+/// that.
 #[test]
 fn boxes_that_merely_meet_confuse_places() {
     let mut config = alike();
@@ -160,8 +160,8 @@ fn looks_close_loops_that_are_too_wide_for_geometry() {
     assert!(looks.kinds > 20 && looks.different > 200, "{looks:?}");
 }
 
-/// What a robot that went to and fro unfolded before it had seen enough is folded once the map
-/// around it is known.
+/// A robot that goes to and fro doubles places before it has seen enough. They are folded once the
+/// map around them is known.
 #[test]
 fn no_double_is_left_of_a_corridor_gone_to_and_fro() {
     for seed in [6, 8, 11, 17] {
@@ -236,8 +236,8 @@ fn doors_that_move_are_followed() {
     assert_eq!(walk.score(), perfect(25));
 }
 
-/// A door that was seen shut is not planned through, long before the link is elided; it is once it
-/// was seen open.
+/// No plan leads through a door that was seen shut, long before the link is elided. Once it was
+/// seen open, plans use it again.
 #[test]
 fn no_plan_leads_through_a_door_that_was_seen_shut() {
     let mut walk = Walk::new(open(2), ODOMETRY, alike(), 1);
@@ -297,8 +297,8 @@ fn plans_lead_round_a_door_that_may_have_moved() {
     assert_eq!(steps(&walk), 3);
 }
 
-/// A door that opens into the side of a corridor makes a place there; the one behind it is where it
-/// was. One that the robot goes past is gone.
+/// A door that opens into the side of a corridor makes a place there, and the place behind it stays
+/// where it was. A place that the robot goes past is gone.
 #[test]
 fn a_place_that_appears_hides_none_behind_it() {
     let at = [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (2.0, 1.0)];

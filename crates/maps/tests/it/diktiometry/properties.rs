@@ -122,8 +122,8 @@ fn observer_and_moves(
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(96))]
 
-    /// No input breaks it, and after every move the two graphs keep their promises and there is a
-    /// best track at a place.
+    /// No input breaks the observer. After every move the two graphs keep their promises, and a
+    /// best track is at a place.
     #[test]
     fn nothing_breaks_it(seed in any::<u32>(), moves in prop::collection::vec(any_move(), 0..60)) {
         let config = config(seed);

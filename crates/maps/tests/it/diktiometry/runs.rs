@@ -21,7 +21,7 @@ fn bounds(bounds: PointBox) -> String {
     format!("{sides:?}")
 }
 
-/// Returns what a walk taught: all places, links, frames and looks, and what advice follows.
+/// Returns a walk's map in text: all places, links, frames and looks, and the advice that follows.
 fn learned(walk: &Walk) -> Vec<String> {
     let map = walk.observer.map();
     let mut figures = Vec::new();

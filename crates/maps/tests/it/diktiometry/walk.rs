@@ -238,8 +238,7 @@ impl Scripted {
         }
     }
 
-    /// Returns where to go from where the robot is. A script that the world does not allow is given
-    /// up.
+    /// Returns the direction to go next. A script that the world does not allow is given up.
     pub(crate) fn choose(&mut self, walk: &Walk) -> Direction {
         if self.script.is_empty() && self.rng.random_range(0.0..1.0) < self.heed {
             let advice = walk.observer.opportunities().into_iter().next();

@@ -10,7 +10,7 @@ use crate::{Cell, Direction, Maze};
 const STREET: u16 = 2;
 
 /// Draws city blocks: streets along every other row and column. A quarter of the ways between two
-/// crossings is walled up, as long as that cuts nothing off. Start and goal lie at crossings or
+/// crossings is walled up, as far as everything stays connected. Start and goal lie at crossings or
 /// ends. O(ways · cells).
 ///
 /// # Errors

@@ -51,7 +51,7 @@ pub fn ladder(size: (u16, u16), rng: &mut impl Rng) -> Result<Maze, GenerateErro
     Ok(rungs(pen, corridor, rng))
 }
 
-/// Draws a ladder whose corridors have `corridor` cells each. O(cells).
+/// Draws a ladder whose corridors are `corridor` cells long. O(cells).
 ///
 /// # Errors
 /// [`GenerateError`] without a cell, or above 510.

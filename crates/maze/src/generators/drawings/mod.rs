@@ -1,5 +1,5 @@
-//! Drawings that a person recognizes, each from its size and seed: what is the same of all of one
-//! name is its shape.
+//! Draws mazes that a person recognizes, each from its size and seed. All of one name have the same
+//! kind of shape.
 //!
 //! All are closed and joined, mark a start and a goal, and wall off what they do not use.
 

@@ -5,7 +5,7 @@ use rand::Rng;
 use super::super::{GenerateError, chance, grid};
 use crate::{Cell, Direction, Grid, Maze};
 
-/// Draws corridors into a maze of which every wall stands.
+/// Draws corridors into a maze in which every wall stands.
 pub(super) struct Pen {
     maze: Maze,
 }

@@ -306,7 +306,7 @@ fn while_no_way_is_known_the_best_approach_is_taken() {
     assert!(chosen > 40, "{chosen}");
 }
 
-/// Which of the two it is, and when it is neither.
+/// Checks which task each state of knowledge leads to, and when to none.
 #[test]
 fn what_there_is_to_do_follows_what_is_known() {
     let (mut early, mut near, mut home, mut done) = (0, 0, 0, 0);

@@ -103,7 +103,7 @@ impl<'a> Column<'a> {
         }
     }
 
-    /// Returns a colour with the stains of its place.
+    /// Returns a colour with the stains at its point.
     fn stained(&self, colour: [u8; 3], depth: f64, height: f64, backdrop: &Backdrop) -> [f64; 3] {
         let gain = if backdrop.stains > 0.0 {
             let at = self.eye + self.direction * depth;
@@ -115,7 +115,7 @@ impl<'a> Column<'a> {
     }
 }
 
-/// Returns the unit normal of a wall on the side that a ray comes from.
+/// Returns the unit normal of a wall on the side from which a ray comes.
 fn normal_towards(wall: &WallSegment, ray: Vector) -> Vector {
     let along = wall.end - wall.start;
     let normal = Vector::new(-along.y, along.x) / along.norm();

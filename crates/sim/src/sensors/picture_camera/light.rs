@@ -12,10 +12,10 @@ pub struct Light {
     pub cast: [f64; 3],
     /// Direction from which most of the light comes.
     pub from: Heading,
-    /// Additional brightness of a wall that faces the light, as a share; one that faces away is as
-    /// much darker.
+    /// Additional brightness of a wall that faces the light, as a share. A wall that faces away is
+    /// darker by the same share.
     pub shade: f64,
-    /// Share of full light that glowing walls cast over the whole picture if they fill it.
+    /// Share of full light that glowing walls would add to the whole picture if they filled it.
     pub glare: f64,
     /// Changes of the light.
     pub drift: LightDrift,
@@ -115,7 +115,7 @@ pub(super) struct Weather {
 type Drifts = [f64; 6];
 
 impl Weather {
-    /// Lets the weather of the next picture come, and returns its light.
+    /// Advances the weather by one picture, and returns its light.
     pub(super) fn next(&mut self, light: &Light, draws: &mut Draws) -> Shine {
         let fresh: Drifts = core::array::from_fn(|_| draws.gaussian());
         let kept = match self.now {
@@ -134,7 +134,7 @@ impl Weather {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Shine {
     gain: [f64; 3],
-    /// Unit vector to where it comes from.
+    /// Unit vector towards the light.
     to_light: Vector,
     shade: f64,
     outside: f64,
@@ -160,7 +160,8 @@ impl Shine {
         }
     }
 
-    /// Returns what a wall of this colour looks like whose `normal` points at the camera.
+    /// Returns the seen colour of a wall of this colour and glow whose `normal` points at the
+    /// camera.
     pub(super) fn on_wall(&self, colour: [f64; 3], glow: f64, normal: Vector) -> [f64; 3] {
         let facing = 1.0 + self.shade * normal.dot(&self.to_light);
         let lit = self.on_floor(colour);
@@ -169,12 +170,12 @@ impl Shine {
         })
     }
 
-    /// Returns what the floor, or a ceiling, of this colour looks like.
+    /// Returns the seen colour of a floor or ceiling of this colour.
     pub(super) fn on_floor(&self, colour: [f64; 3]) -> [f64; 3] {
         core::array::from_fn(|part| colour[part] * self.gain[part])
     }
 
-    /// Returns the share of full light that lies over a picture whose share `share` glows.
+    /// Returns the share of full light added to a picture of which `share` glows.
     pub(super) fn veil(&self, share: f64) -> f64 {
         (self.glare * self.outside * share).min(0.9)
     }

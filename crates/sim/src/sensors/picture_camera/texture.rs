@@ -14,8 +14,7 @@ fn patch(point: [f64; 3], size: f64, layer: u32) -> f64 {
     f64::from(mixed) / f64::from(u32::MAX) * 2.0 - 1.0
 }
 
-/// Returns a permutation of all words that leaves no pattern to the eye (the finalizer of
-/// MurmurHash3).
+/// Returns a permutation of all words without a visible pattern (the finalizer of MurmurHash3).
 fn mix(mut word: u32) -> u32 {
     word = word.wrapping_add(0x9E37_79B9);
     word = (word ^ (word >> 16)).wrapping_mul(0x85EB_CA6B);

@@ -13,12 +13,12 @@ pub enum PlayError {
         /// Reason, if the pipe gives one.
         source: Option<std::io::Error>,
     },
-    /// The simulator says what it cannot say.
+    /// The simulator's reply is not one that it can give.
     #[error("the simulator replied {reply:?} to `{command}`: {expected} was expected")]
     Reply {
-        /// The command.
+        /// Command that was sent.
         command: String,
-        /// Its reply.
+        /// Reply of the simulator.
         reply: String,
         /// Possible answers.
         expected: &'static str,
@@ -26,13 +26,13 @@ pub enum PlayError {
     /// The maze is larger than the mouse's map.
     #[error(transparent)]
     TooLarge(#[from] TooLarge),
-    /// The mouse sees walls where it has seen none, or the reverse.
+    /// The readings contradict known walls.
     #[error("the reading contradicts the mouse's map")]
     Observe(#[from] ObserveError),
     /// No way leads to the goal.
     #[error("the mouse has found that no way leads to the goal: open a wall")]
     NoWay,
-    /// The mouse runs against walls it does not see.
+    /// The mouse runs into walls that it does not see.
     #[error("the mouse crashed {crashes} times: walls are not where the simulator says they are")]
     Crashes {
         /// Number of crashes.

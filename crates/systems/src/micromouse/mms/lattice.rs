@@ -1,8 +1,8 @@
-//! Possible positions of a mouse of mms: a lattice of half-steps.
+//! Positions of a mouse of mms: a lattice of half-steps.
 
 use tolman_maze::{Cell, Direction, Grid};
 
-/// A place on the lattice of half-steps, from the south-west corner: middles of cells have two odd
+/// A point on the lattice of half-steps, from the south-west corner. Middles of cells have two odd
 /// coordinates, middles of walls one, posts none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LatticePoint {
@@ -16,7 +16,7 @@ impl LatticePoint {
     /// The middle of the south-west cell, where every mouse of mms starts.
     pub const START: Self = Self { x: 1, y: 1 };
 
-    /// Returns the cell it lies in; that to the north and east of it on a wall.
+    /// Returns the cell of the point; on a wall, the cell to its north or east.
     #[must_use]
     pub const fn cell(self) -> Cell {
         Cell::new((self.x / 2) as u16, (self.y / 2) as u16)
@@ -62,7 +62,7 @@ impl LatticePoint {
 /// Obstacle half a step ahead of a position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gate {
-    /// The middle of a cell: nothing can stand there.
+    /// None: the position ahead is the middle of a cell.
     None,
     /// The side of a cell, with a wall or without.
     Edge(Cell, Direction),
@@ -70,7 +70,8 @@ pub enum Gate {
     Solid,
 }
 
-/// One of the eight directions a mouse of mms can look: eighths of a circle, clockwise from north.
+/// One of the eight directions in which a mouse of mms can look: eighths of a circle, clockwise
+/// from north.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LatticeHeading(u8);
 
@@ -84,7 +85,7 @@ impl LatticeHeading {
         Self((self.0 as i8 + eighths).rem_euclid(8) as u8)
     }
 
-    /// Returns one of the four sides of a cell, or none on a diagonal.
+    /// Returns the side of a cell in this direction, or `None` on a diagonal.
     #[must_use]
     pub const fn side(self) -> Option<Direction> {
         match self.0 {
@@ -102,13 +103,13 @@ impl LatticeHeading {
         self.0 as u32
     }
 
-    /// Returns the heading of that [`LatticeHeading::index`].
+    /// Returns the heading with this [`LatticeHeading::index`].
     #[must_use]
     pub const fn from_index(index: u32) -> Self {
         Self((index % 8) as u8)
     }
 
-    /// Returns half a step in that direction, to the east and to the north.
+    /// Returns the displacement of half a step in that direction, to the east and to the north.
     const fn half_step(self) -> (i32, i32) {
         match self.0 {
             0 => (0, 1),

@@ -9,7 +9,7 @@ use tolman_maze::{Cell, Direction};
 
 use super::PlayError;
 
-/// Number of bytes of a reply that are read: no sound one is longer.
+/// Maximum number of bytes read of a reply: no valid one is longer.
 const MOST_BYTES: u64 = 256;
 
 /// Speaks to whatever hosts the mouse.
@@ -24,7 +24,7 @@ impl<R: BufRead, W: Write> Link<R, W> {
         Self { input, output }
     }
 
-    /// Says what gets no reply.
+    /// Sends a command without a reply.
     pub(super) fn tell(&mut self, command: &str) -> Result<(), PlayError> {
         // A simulator that has gone is found out about by the next question.
         writeln!(self.output, "{command}").map_err(|error| gone(error, command))
@@ -70,7 +70,7 @@ impl<R: BufRead, W: Write> Link<R, W> {
         self.ask(command, "ack", |reply| (reply == "ack").then_some(()))
     }
 
-    /// Says where to drive.
+    /// Sends a drive command.
     pub(super) fn drive(&mut self, command: &str) -> Result<Driven, PlayError> {
         self.ask(command, "ack or crash", |reply| match reply {
             "ack" => Some(Driven::Arrived),
@@ -90,7 +90,7 @@ impl<R: BufRead, W: Write> Link<R, W> {
         self.tell(&format!("setWall {} {} {side}", cell.x, cell.y))
     }
 
-    /// Hands over what is still to be written.
+    /// Sends everything still to be written.
     pub(super) fn close(mut self) -> Result<(), PlayError> {
         self.output.flush().map_err(|error| gone(error, "the end"))
     }

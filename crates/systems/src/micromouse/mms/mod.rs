@@ -1,8 +1,9 @@
 //! A mouse for the simulator [mms](https://github.com/mackorone/mms): it explores, drives home, and
 //! makes the run that scores least.
 //!
-//! [`play`] speaks the protocol of mms over any two streams: a command a line out, a reply a line
-//! in. The mouse's [`LatticePoint`] lies on a lattice of half-steps, since mms scores diagonals.
+//! [`play`] speaks the protocol of mms over any two streams: one command per line out, one reply
+//! per line in. The mouse's [`LatticePoint`] lies on a lattice of half-steps, since mms scores
+//! diagonals.
 
 mod error;
 mod lattice;

@@ -17,13 +17,13 @@ use crate::micromouse::Until;
 pub struct Played {
     /// Score of the run it made, in half-steps, without the tenth of all movements.
     pub run: f32,
-    /// Score of the best run that the known walls leave possible.
+    /// Score of the best run that is possible with the known walls.
     pub possible: f32,
     /// Number of times that the reset button was pressed or a crash made it go back to the start.
     pub resets: u32,
 }
 
-/// Crashes after which a mouse no longer believes that its map comes right.
+/// Number of crashes after which a mouse gives up on correcting its map.
 const MOST_CRASHES: u32 = 8;
 
 /// Number of last observations that a crash makes doubtful.
@@ -36,12 +36,12 @@ const DOUBTFUL: usize = 2;
 /// cell where it stops it asks for the distances to walls on all four sides. It plans in the
 /// simulator's score, diagonals included. It explores like the mouse of the [speed
 /// run](tolman_planners::speed_run). It looks at the unknown walls of the best possible run, the
-/// nearest first. After a press of the reset button it continues from the start. After a crash it
-/// does so too, and forgets its last observations.
+/// nearest first. After a press of the reset button it continues from the start. After a crash,
+/// too, it continues from the start, and forgets its last observations.
 ///
 /// # Errors
-/// If the simulator goes away or answers nonsense, the maze has more than 32 columns or rows, or no
-/// way leads to its goal.
+/// If the simulator ends or gives an invalid reply, the maze has more than 32 columns or rows, or
+/// no way leads to its goal.
 pub fn play(
     input: impl BufRead,
     output: impl Write,
@@ -64,7 +64,7 @@ struct Mouse<const N: usize, R, W, L> {
     walls: WallMap<N>,
     goals: Vec<Cell>,
     at: Stand,
-    /// The best run that could be hoped for when it was last planned.
+    /// Best run that could be hoped for at the last planning.
     hoped: Option<Plan>,
     goal: Goal,
     crashes: u32,
@@ -77,7 +77,7 @@ enum Goal {
     Visited,
 }
 
-/// Whether the mouse is where it wanted to be.
+/// Whether the mouse's position is the expected one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Course {
     Kept,
@@ -204,8 +204,8 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         }
     }
 
-    /// Returns the cells to stop in next, or none if the mouse has been at the goal and knows
-    /// enough.
+    /// Returns the cells in which to stop next, or `None` if the mouse has been at the goal and
+    /// knows enough.
     fn targets(&mut self) -> Result<Option<Vec<Cell>>, PlayError> {
         // In this score no look beyond the goal was found to pay.
         let is_enough = match self.until {
@@ -254,8 +254,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         ends_run(stand, &self.goals)
     }
 
-    /// Returns the way on known ground to where the mouse can see more: the position from which a
-    /// target is nearest.
+    /// Returns the way on known ground to the position from which a target is nearest.
     fn way_to(&self, targets: &[Cell]) -> Result<Option<Plan>, TooLarge> {
         let grid = self.walls.grid();
         let hoped = Passages::<N>::new(&self.walls, Unknown::Open)?;
@@ -300,7 +299,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         }))
     }
 
-    /// Drives from stand to stand; the first of them is at most a turn away.
+    /// Drives from stand to stand. The first one is at most a turn away.
     fn follow(&mut self, stands: &[Stand]) -> Result<Course, PlayError> {
         for stand in stands {
             if self.link.truth("wasReset")? {
@@ -332,7 +331,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         Ok(Course::Lost)
     }
 
-    /// Returns one movement: a turn, or a straight.
+    /// Makes one movement: a turn, or a straight.
     fn go(&mut self, to: Stand) -> Result<Driven, PlayError> {
         while self.at.heading != to.heading {
             let left = (to.heading.index() + 8 - self.at.heading.index()) % 8;
@@ -386,8 +385,8 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
     }
 }
 
-/// Price of a cell on an unknown way, in halves: the least that one costs, on a long straight. A
-/// higher price sends the mouse far for what lies near a target (`docs/notebook/micromouse.md`).
+/// Cost of a cell on an unknown way, in halves: the minimum, on a long straight. A higher cost
+/// sends the mouse far for what lies near a target (`docs/notebook/micromouse.md`).
 const ONE_CELL: u32 = 2;
 
 #[cfg(test)]

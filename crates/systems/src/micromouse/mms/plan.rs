@@ -19,13 +19,13 @@ pub fn best_score(walls: &impl Walls) -> Result<Option<f32>, TooLarge> {
     Ok(run.map(|run| score(run.cost)))
 }
 
-/// Returns whether a movement that ends there ends a run. In the smallest mazes the start lies in
-/// the middle as well.
+/// Returns whether a movement that ends at a stand ends a run. In the smallest mazes the start lies
+/// in the middle as well.
 pub(super) fn ends_run(stand: Stand, goals: &[Cell]) -> bool {
     stand.place != LatticePoint::START && goals.contains(&stand.place.cell())
 }
 
-/// Stands one movement apart, and what the movements cost, in halves.
+/// A plan: stands one movement apart, and the cost of the movements, in halves.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
     pub(super) stands: Vec<Stand>,
@@ -33,7 +33,7 @@ pub(super) struct Plan {
 }
 
 impl Plan {
-    /// Returns the sides of cells that it drives over.
+    /// Returns the sides of cells over which the plan drives.
     pub(super) fn edges(&self, grid: Grid) -> impl Iterator<Item = (Cell, Direction)> {
         let later = self.stands.iter().skip(1);
         let movements = self.stands.iter().zip(later);
@@ -41,7 +41,7 @@ impl Plan {
     }
 }
 
-/// Returns the cheapest way from `from` to a stand that is a goal.
+/// Returns the cheapest way from `from` to a stand for which `is_goal` is true.
 pub(super) fn plan<const N: usize>(
     roads: &Roads<'_, N>,
     from: Stand,
@@ -57,7 +57,7 @@ pub(super) fn plan<const N: usize>(
     Some(Plan { stands, cost })
 }
 
-/// Returns a cost in halves as the simulator counts it.
+/// Returns a cost in halves in the simulator's unit.
 pub(super) fn score(halves: u32) -> f32 {
     halves as f32 / 2.0
 }

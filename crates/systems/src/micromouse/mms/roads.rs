@@ -5,7 +5,7 @@ use tolman_planners::{Graph, Passages};
 
 use super::{Gate, LatticeHeading, LatticePoint};
 
-/// A place and a heading: what a movement leads from and to.
+/// A place and a heading: the beginning or end of a movement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Stand {
     pub(super) place: LatticePoint,
@@ -31,13 +31,14 @@ pub(super) struct Roads<'a, const N: usize> {
 /// Cost of turns at the start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum TurnsAtStart {
-    /// They cost what they cost everywhere.
+    /// The movements cost the same everywhere.
     Count,
-    /// Nothing: a run begins with the first movement that leaves the start.
+    /// The movements at the start cost nothing: a run begins with the first one that leaves the
+    /// start.
     Free,
 }
 
-/// One turn, in halves.
+/// Cost of one turn, in halves.
 const TURN: u32 = 2;
 
 /// Returns the cost of a straight of `half_steps` half-steps: those after the second count half.
@@ -112,7 +113,7 @@ impl<const N: usize> Graph for Roads<'_, N> {
     }
 }
 
-/// Returns the sides of cells that a straight from one place to another drives over.
+/// Returns the sides of cells over which a straight leads from one place to another.
 pub(super) fn edges(grid: Grid, from: Stand, to: Stand) -> impl Iterator<Item = (Cell, Direction)> {
     let mut place = from.place;
     core::iter::from_fn(move || {

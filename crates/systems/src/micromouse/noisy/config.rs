@@ -44,18 +44,18 @@ impl NoisyMouseConfig {
 /// Source of a mouse's estimate of its pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PoseSource {
-    /// Assumes that its wheels do what they are told.
+    /// Assumes that its wheels follow the commands exactly.
     DeadReckoning,
-    /// Compares what it sees with the walls that it knows.
+    /// Compares its readings with the walls that it knows.
     ParticleFilter,
 }
 
 /// Source of a mouse's estimate of its motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MotionSource {
-    /// The commands.
+    /// The commands, taken as carried out.
     Commands,
-    /// The encoders, and the commands where the encoders give nothing.
+    /// The encoders, and the commands while the encoders give nothing.
     Encoders,
 }
 

@@ -4,7 +4,7 @@
 //! Rules and search are those of the paper. But its motors are inexact, and it estimates its pose
 //! only from its commands and its range sensors. It holds a
 //! [`PoseFilter`](tolman_maps::wall_belief::PoseFilter) on a
-//! [`WallBelief`](tolman_maps::wall_belief::WallBelief) that grows with what it sees. It drives any
+//! [`WallBelief`](tolman_maps::wall_belief::WallBelief) that grows with its readings. It drives any
 //! robot that turns and translates, and has range sensors and a bumper.
 
 mod config;

@@ -21,32 +21,31 @@ impl<R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps + Rolls>> NoisyBo
 /// Result of a noisy mouse's step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoisyNext {
-    /// One step of the paper's rules.
+    /// It made one step of the paper's rules.
     Stepped,
-    /// Nothing: it believes that it is done.
+    /// It did nothing, because it believes that it is done.
     Done,
-    /// Nothing: it believes that no way leads to the goal.
+    /// It did nothing, because it believes that no way leads to the goal.
     Stuck,
 }
 
-/// A mouse that drives by what it believes of walls and pose.
+/// A mouse that drives by its beliefs about walls and pose.
 #[derive(Debug)]
 pub struct NoisyMouse {
     pub(super) config: NoisyMouseConfig,
     pub(super) brief: Brief,
     pub(super) filter: PoseFilter,
-    /// Pose by its wheels alone.
+    /// Pose by odometry alone.
     pub(super) reckoned: Pose,
     pub(super) belief: WallBelief<SIDE>,
-    /// Whether it was put down somewhere and has not localized yet. It then drives by its wheels
-    /// from where it most likely is, and learns no walls.
+    /// Whether it was put down anywhere and has not localized yet. It then drives by odometry from
+    /// its likeliest place, and learns no walls.
     pub(super) is_lost: bool,
     explorer: MoveExplorer<SIDE>,
     pub(super) rng: ChaCha8Rng,
 }
 
-/// Minimum number of readings per stop; and the maximum, while a visible side of the cell is
-/// unknown.
+/// Minimum number of readings per stop, and maximum while a visible side of the cell is unknown.
 const LOOKS: (u32, u32) = (4, 16);
 /// Distance from the mouse's middle to a wall ahead at which it stops, as a share of the pitch. The
 /// second value is the number of readings in a row that must agree.
@@ -59,14 +58,14 @@ const DOUBTS: u32 = 12;
 /// Tolerances at which a turn, rad, and a position, as a share of the pitch, are reached.
 const CLOSE: (f64, f64) = (0.03, 0.004 / 0.18);
 /// Share of its full speed with which the mouse drives. The errors of wheels and sensors are
-/// independent between time steps. So shorter motions average more of them out, and the rules count
-/// no time.
+/// independent between time steps. Shorter motions therefore average more of them out, and the
+/// rules count no time.
 const PACE: f64 = 0.25;
 /// Number of time steps after which a step of the paper's rules is given up.
 const PATIENCE: u32 = 800;
 
 impl NoisyMouse {
-    /// Returns a mouse at the start that has seen nothing; `seed` seeds its filter.
+    /// Returns a mouse at the start without observations; `seed` seeds its filter.
     ///
     /// # Errors
     /// If the maze is too large, or a number of the filter is out of its range.
@@ -114,7 +113,7 @@ impl NoisyMouse {
         }
     }
 
-    /// Stands still and takes in what the range sensors see.
+    /// Stands still and takes in the readings of the range sensors.
     ///
     /// # Errors
     /// If the robot fails.
@@ -135,14 +134,14 @@ impl NoisyMouse {
         Ok(())
     }
 
-    /// Returns whether the sides of its cell that a sensor looks at are known.
+    /// Returns whether the mouse knows all sides of its cell at which a sensor looks.
     fn knows_its_cell(&self) -> bool {
         let (cell, looks) = (self.cell(), self.looks_to());
         let mut seen = [looks.left(), looks, looks.right()].into_iter();
         seen.all(|side| self.belief.knowledge(cell, side).is_known())
     }
 
-    /// Makes a step of the first run. It is done when it believes that its run is proven.
+    /// Makes a step of the first run, which is done when the mouse believes that its run is proven.
     ///
     /// # Errors
     /// If the robot fails.
@@ -158,8 +157,8 @@ impl NoisyMouse {
         Ok(NoisyNext::Stepped)
     }
 
-    /// Makes a step of the second run, which is planned again at every stop. It is done when it
-    /// believes that it is at a goal.
+    /// Makes a step of the second run, which is planned again at every stop. It is done when the
+    /// mouse believes that it is at a goal.
     ///
     /// # Errors
     /// If the robot fails.
@@ -181,7 +180,8 @@ impl NoisyMouse {
         decision.unwrap_or(MoveDecision::Stuck)
     }
 
-    /// Returns the result of `plan`.
+    /// Returns the first result of `plan` that is not `stuck`, or `stuck` after [`DOUBTS`]
+    /// attempts.
     ///
     /// Every maze has a way to its goal. So while `plan` returns `stuck`, the mouse believes in
     /// some wall that does not stand. It then doubts all walls, and looks again at those with the
@@ -209,8 +209,8 @@ impl NoisyMouse {
             .find_map(|unknown| self.first_leap(unknown, targets.iter().copied()))
     }
 
-    /// Returns the next leap towards the nearest of `targets`. `unknown` says how to treat walls
-    /// that are not known.
+    /// Returns the next leap towards the nearest of `targets`. `unknown` says how to treat unknown
+    /// walls.
     pub(super) fn first_leap(
         &self,
         unknown: Unknown,
@@ -222,8 +222,7 @@ impl NoisyMouse {
         map.way(&passages, self.cell()).next()
     }
 
-    /// Returns the cell that the mouse believes it is in; the start, if it believes that it has
-    /// left the maze.
+    /// Returns the cell of the mouse's believed position; the start, if that is outside the maze.
     pub(super) fn cell(&self) -> Cell {
         self.belief
             .cell_at(self.pose().position)
@@ -283,8 +282,8 @@ impl NoisyMouse {
         Ok(())
     }
 
-    /// Takes in a bump while driving to `side`. It is the wall of its cell there, unless that would
-    /// be too near or too far.
+    /// Takes in a bump while driving to `side`: it proves the wall of its cell there, unless that
+    /// wall would be too near or too far.
     fn bumped(&mut self, side: Direction) {
         if self.is_lost {
             return;

@@ -1,4 +1,4 @@
-//! A noisy mouse as a system: it learns the whole maze, localizes, and goes where it is sent.
+//! Makes a noisy mouse a system: it learns the whole maze, localizes, and goes to goals.
 
 use core::convert::Infallible;
 
@@ -20,7 +20,7 @@ const SCATTERED: u32 = 8;
 /// Maximum offset of a particle from the middle of its cell along an axis, as a share of the pitch;
 /// and from the axis, rad.
 const SCATTER: (f64, f64) = (0.15, 0.15);
-/// Share of the particles' weight in one cell from which the mouse is sure where it is.
+/// Minimum share of the particles' weight in one cell at which the mouse is sure of its place.
 const SURE: f64 = 0.95;
 
 /// The next thing to do.
@@ -34,7 +34,7 @@ enum Choice {
 /// - `Reach` plans again at every stop: through walls believed open, or else through those not
 ///   believed to stand. If a way turns out to be shut, it finds another.
 /// - `Localize` is done when 95 % of the particles' weight lie in one cell. Until then the mouse
-///   drives to the goal as if it were where it most likely is.
+///   drives to the goal from its likeliest place.
 impl<R: NoisyBody> System<R> for NoisyMouse {
     type Failure = R::Error;
 
@@ -83,8 +83,7 @@ impl NoisyMouse {
         Pose::new(Point::from(off), Heading::from_radians(SCATTER.1 * turn))
     }
 
-    /// Looks once, and assumes that it is where it most likely is. It has localized if it is sure
-    /// of that.
+    /// Looks once, and assumes its likeliest place. It has localized if it is sure of that place.
     pub(super) fn look_for_itself<R: NoisyBody>(&mut self, robot: &mut R) -> Result<(), R::Error> {
         self.time_step(robot, TurnTranslate::STOP)?;
         let readings = readings(robot.sensing());
@@ -143,7 +142,7 @@ impl NoisyMouse {
         next.map_or_else(|| Choice::Turn(self.looks_to().right()), Choice::Drive)
     }
 
-    /// Returns a side of a cell of which it does not know whether it is open.
+    /// Returns a side of a cell whose wall is not known, or `None` if all are known.
     fn unknown_side(&self, cell: Cell) -> Option<Direction> {
         let is_unknown = |side: &Direction| !self.belief.knowledge(cell, *side).is_known();
         Direction::ALL.into_iter().find(is_unknown)

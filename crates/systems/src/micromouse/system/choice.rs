@@ -1,4 +1,4 @@
-//! What a mouse does in a cell.
+//! Chooses the mouse's action in a cell.
 
 use tolman_maze::{Cell, Direction};
 use tolman_planners::moves::Leap;
@@ -10,7 +10,7 @@ use crate::micromouse::{Next, Search, SearchView};
 
 /// Choice of a mouse in a cell.
 pub(super) enum Choice {
-    /// Leave it and the next ones by these sides, the last one first.
+    /// Leave this cell and the next ones by these sides, the last one first.
     Drive(Vec<Direction>),
     /// Turn right.
     Turn,
@@ -63,7 +63,7 @@ impl<S: Search> MazeMouse<S> {
         )
     }
 
-    /// Returns the best run that is certain, or that can be hoped for, if there is one.
+    /// Returns the best run that is certain or can be hoped for, or `None` if there is none.
     ///
     /// # Errors
     /// If the maze has more than [`SIDE`](crate::micromouse::SIDE) columns or rows.
@@ -82,7 +82,7 @@ fn give_up(why: impl Into<String>) -> Choice {
     Choice::End(Standing::gave_up(why))
 }
 
-/// Returns the sides by which some leaps leave their cells, the first last.
+/// Returns the sides by which the leaps leave their cells, the first one last.
 fn sides(leaps: &[Leap]) -> Vec<Direction> {
     let sides = leaps
         .iter()

@@ -14,7 +14,7 @@ pub struct MazeMouseConfig {
     pub wall_thickness: f64,
     /// Turn made in a time step at the full command, rad. > 0.
     pub turn_per_step: f64,
-    /// Way covered in a time step at the full command, m. > 0.
+    /// Distance covered in a time step at the full command, m. > 0.
     pub translate_per_step: f64,
 }
 
@@ -27,7 +27,7 @@ pub enum MazeMouseError {
     Field {
         /// The name of the field.
         field: &'static str,
-        /// Its value.
+        /// Value that was given.
         value: f64,
         /// Values that the field may have.
         range: &'static str,

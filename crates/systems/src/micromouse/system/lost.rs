@@ -1,4 +1,4 @@
-//! A mouse that was put down somewhere finds out where.
+//! Localizes a mouse that was put down anywhere.
 
 use tolman_control::heading_of;
 use tolman_geom::Point;
@@ -11,7 +11,7 @@ use super::MazeMouse;
 use super::pilot::Body;
 use crate::micromouse::{SIDE, Search};
 
-/// Belief of a mouse that was put down somewhere in the maze.
+/// Belief of a mouse that was put down anywhere in the maze.
 #[derive(Clone, Debug)]
 pub(super) struct Lost {
     /// Its possible poses; the compass gives its heading.
@@ -22,7 +22,7 @@ pub(super) struct Lost {
 }
 
 impl Lost {
-    /// Takes in what is seen of the walls of its cell.
+    /// Takes in the visible walls of its cell.
     fn see(&mut self, walls: &impl Walls, rays: &[CellRay]) {
         for ray in rays {
             let is_open = ray.open > 0;
@@ -33,7 +33,7 @@ impl Lost {
         }
     }
 
-    /// Goes on to the next cell on a side of its own, and returns that cell's middle.
+    /// Goes to the next cell by a side of its own, and returns that cell's middle.
     fn drive(&mut self, walls: &impl Walls, side: Direction, pitch: f64) -> Point {
         self.poses.drive(walls, side);
         self.looks = self.looks.turned(side);
@@ -43,7 +43,7 @@ impl Lost {
 }
 
 impl<S: Search> MazeMouse<S> {
-    /// Forgets where it is: it can be in all cells that it has been in.
+    /// Forgets its place: the mouse may be in any cell where it has been.
     pub(super) fn lose_itself(&mut self) -> Standing {
         let looks = Direction::North;
         let cells = self.brief.grid.cells();
@@ -65,8 +65,8 @@ impl<S: Search> MazeMouse<S> {
         }
     }
 
-    /// Makes the next action of a mouse that is lost: it looks, and drives to where the cells that
-    /// it can be in differ.
+    /// Makes the next action of a lost mouse: it looks, and drives to where the possible cells
+    /// differ.
     pub(super) fn find_itself<R: Body>(
         &mut self,
         mut lost: Lost,

@@ -1,4 +1,4 @@
-//! What a mouse has learned.
+//! Shows what a mouse has learned as a map.
 
 use tolman_maps::wall_map::ObserveError;
 use tolman_maze::Cell;
@@ -8,7 +8,8 @@ use super::{CellSight, MazeMouse};
 use crate::micromouse::Search;
 use crate::micromouse::grid_map::{grid_map, place_of};
 
-/// Places are the cells known to be open to some side, and the start; links are the openings.
+/// The map's places are the cells known to be open to some side, and the start; its links are the
+/// openings.
 impl<S: Search> Mapper for MazeMouse<S> {
     type Observation = CellSight;
     type Error = ObserveError;

@@ -19,7 +19,7 @@ use crate::micromouse::{
 /// A mouse that explores a grid maze with any robot that has a laser ring, a compass and encoders,
 /// and makes runs in it.
 ///
-/// - `Explore` drives as its search says, until that has its proof.
+/// - `Explore` drives as its search decides, until the search has its proof.
 /// - `Reach` drives a best run on walls known to be open, or else on those not known to stand. The
 ///   landmarks are the start and the goals; a place is a cell, by
 ///   [`Grid::index`](tolman_maze::Grid::index).
@@ -28,7 +28,8 @@ use crate::micromouse::{
 ///   that.
 ///
 /// Every action is one cell: the mouse looks at the walls, chooses, and drives to the middle of the
-/// next cell. It gives up if the walls contradict its map, or if the robot does not get there.
+/// next cell. It gives up if the walls contradict its map, or if the robot does not reach the next
+/// cell.
 #[derive(Clone, Debug)]
 pub struct MazeMouse<S> {
     pub(super) brief: Brief,
@@ -42,7 +43,7 @@ pub struct MazeMouse<S> {
     task: Option<Task>,
     /// Sides by which it leaves the next cells, the next one last.
     pub(super) route: Vec<Direction>,
-    /// Belief about its place, from when it was put down until it has found itself.
+    /// Belief about its place after it was put down, until it has localized.
     pub(super) lost: Option<Lost>,
 }
 
@@ -60,7 +61,7 @@ impl MazeMouse<Certify> {
 }
 
 impl MazeMouse<WholeMaze> {
-    /// Returns a mouse that explores until it has been everywhere.
+    /// Returns a mouse that explores until it has visited every cell.
     ///
     /// # Errors
     /// If the maze is too large or a number of `config` is out of its range.
@@ -81,8 +82,8 @@ impl MazeMouse<TargetSearch> {
 }
 
 impl<S: Search> MazeMouse<S> {
-    /// Returns a mouse in the middle of the start that has seen nothing. It explores by `search`
-    /// and runs by `run_two`.
+    /// Returns a mouse in the middle of the start without observations. It explores by `search` and
+    /// runs by `run_two`.
     ///
     /// # Errors
     /// If the maze is larger than [`SIDE`] or a number of `config` is out of its range.
@@ -117,14 +118,14 @@ impl<S: Search> MazeMouse<S> {
         &self.walls
     }
 
-    /// Returns the pose in which it believes to be, in the frame of the maze.
+    /// Returns its believed pose, in the frame of the maze.
     #[must_use]
     pub const fn pose(&self) -> Pose {
         self.pilot.pose()
     }
 
     /// Returns the proof that no run from the start takes fewer steps than the best known one, once
-    /// that is certain. O(n) for n cells.
+    /// it exists. O(n) for n cells.
     #[must_use]
     pub fn certificate(&self) -> Option<Certificate> {
         let Brief { start, goals, .. } = &self.brief;
@@ -173,7 +174,7 @@ where
 }
 
 impl<S: Search> MazeMouse<S> {
-    /// Takes in the walls that are seen from here. `Some` if there were no ranges, or they
+    /// Takes in the walls visible from here. Returns a standing if there were no ranges, or they
     /// contradict the map.
     fn look<R: Body>(&mut self, robot: &mut R) -> Result<Option<Standing>, R::Error> {
         let cell = self.at;

@@ -12,13 +12,13 @@ pub(super) const PATIENCE: u32 = 100;
 
 /// Number of time steps in which it waits for ranges that dropped out.
 const LOOKS: u32 = 10;
-/// This near, as a share of the pitch, a place is reached.
+/// Distance within which a position is reached, as a share of the pitch.
 const CLOSE: f64 = 0.06;
-/// This near, rad, a heading is reached.
+/// Angle within which a heading is reached, rad.
 const AIMED: f64 = 0.05;
 /// Angle past its target above which a robot turns before it drives, rad.
 const ASIDE: f64 = 0.15;
-/// Maximum way of a time step, as a share of the pitch, so that the walls are seen meanwhile.
+/// Maximum distance of a time step, as a share of the pitch, so that the walls are seen meanwhile.
 const STRIDE: f64 = 0.25;
 
 /// A robot that a [`Pilot`] can drive.
@@ -29,15 +29,15 @@ pub(super) trait Body:
 
 impl<R: Robot<Command = TurnTranslate, Sensing: Ranges + Compass + Rolls>> Body for R {}
 
-/// Whether the robot came to where it was sent.
+/// Whether the robot reached its target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Arrival {
     Arrived,
-    /// The robot is not there after [`PATIENCE`] time steps.
+    /// The robot has not reached its target after [`PATIENCE`] time steps.
     OutOfPatience,
 }
 
-/// Drives a robot on the grid, and knows where it is.
+/// Drives a robot on the grid, and keeps its believed pose.
 #[derive(Clone, Debug)]
 pub(super) struct Pilot {
     pose: Pose,
@@ -49,18 +49,18 @@ impl Pilot {
         Self { pose, config }
     }
 
-    /// Returns where it believes the robot to be.
+    /// Returns the robot's believed pose.
     pub(super) const fn pose(&self) -> Pose {
         self.pose
     }
 
-    /// Takes the robot to be at `position`; it looks as before.
+    /// Sets the believed position; the heading stays the same.
     pub(super) const fn put_at(&mut self, position: Point) {
         self.pose.position = position;
     }
 
-    /// Stands still and returns what is seen of the walls from the cell whose middle is `middle`;
-    /// `None` if no ranges come.
+    /// Stands still and returns the view of the walls from the cell with this `middle`; `None` if
+    /// no ranges come.
     pub(super) fn look<R: Body>(
         &mut self,
         robot: &mut R,
@@ -92,7 +92,7 @@ impl Pilot {
         Ok(Arrival::OutOfPatience)
     }
 
-    /// Drives straight to `target`, a cell away or less.
+    /// Drives straight to `target`, at most one cell away.
     pub(super) fn drive_to<R: Body>(
         &mut self,
         robot: &mut R,

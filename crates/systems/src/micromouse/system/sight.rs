@@ -1,4 +1,4 @@
-//! From a scan to the walls of the grid.
+//! Converts a scan to readings of the grid's walls.
 
 use tolman_control::heading_of;
 use tolman_geom::{Point, Pose};
@@ -20,26 +20,26 @@ pub struct CellSight {
 /// A beam that looks along the grid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Beam {
-    /// The side it looks to.
+    /// Side to which it looks.
     pub(super) side: Direction,
     /// Range in that direction, m.
     pub(super) along: f64,
-    /// Whether it met something there.
+    /// Whether it met something.
     pub(super) met: bool,
-    /// Its angle off the grid, as metres to the left of `side` for a metre along it.
+    /// Its angle off the grid: metres to the left of `side` per metre along it.
     slope: f64,
     /// Origin of the beam, m to the left of the middle of its row of cells.
     aside: f64,
 }
 
-/// Cosine below which a beam is too far off the grid, 8°: its reading is about walls at the side.
+/// Cosine of 8°, the greatest angle off the grid: beams beyond it meet walls at the side.
 const STRAIGHT: f64 = 0.99;
 
 /// Distance from the middle of its row at which a beam may meet a post, as a share of the pitch.
 const INTERIOR: f64 = 0.35;
 
-/// Maximum distance of a range's end from the place of a wall at which it still shows that wall, as
-/// a share of the pitch.
+/// Maximum distance of a beam's end from a wall for the beam to show that wall, as a share of the
+/// pitch.
 pub(super) const TOLERANCE: f64 = 0.2;
 
 /// Returns the beams of a scan made at `pose` that look along the grid.
@@ -64,20 +64,20 @@ pub(super) fn beams(scan: &Scan, pose: Pose, pitch: f64) -> impl Iterator<Item =
 }
 
 impl Beam {
-    /// Returns whether the beam is well within its row of cells after `along` metres: what it meets
-    /// there stands across.
+    /// Returns whether the beam is well within its row of cells after `along` metres, so that it
+    /// meets a wall across the row.
     pub(super) fn is_inside(&self, along: f64, pitch: f64) -> bool {
         (self.aside + along * self.slope).abs() < INTERIOR * pitch
     }
 }
 
-/// Returns the middle of the cell that a point lies in, or would lie in if the grid went on.
+/// Returns the middle of a point's cell, also beyond the grid.
 fn nearest_middle(point: Point, pitch: f64) -> Point {
     let middle = |along: f64| (libm::floor(along / pitch) + 0.5) * pitch;
     Point::new(middle(point.x), middle(point.y))
 }
 
-/// Returns the readings of the walls by a scan made at `pose`, seen from the cell whose middle is
+/// Returns the readings of the walls by a scan made at `pose`, seen from the cell with this
 /// `middle`.
 pub(super) fn rays(
     scan: &Scan,
@@ -96,7 +96,7 @@ pub(super) fn rays(
         .collect()
 }
 
-/// Returns what a beam says that begins `offset` metres beyond the middle of its cell.
+/// Returns the ray that a beam proves, if it begins `offset` metres beyond the middle of its cell.
 fn ray(beam: &Beam, offset: f64, config: &MazeMouseConfig) -> CellRay {
     let pitch = config.pitch;
     let to_side = 0.5 * pitch - offset;

@@ -105,7 +105,8 @@ impl Floor {
         Cell::new(index(self.pose.position.x), index(self.pose.position.y))
     }
 
-    /// Returns how far it is to the first wall that a beam crosses: from line to line of the grid.
+    /// Returns the distance to the first wall that a beam crosses, m, going from line to line of
+    /// the grid.
     fn range(&self, beam: u32) -> f64 {
         let unit = self.pose.heading.turned(self.ring.bearing(beam)).unit();
         let mut at = self.cell();

@@ -1,4 +1,4 @@
-//! Pose of a mouse: dead reckoning, corrected by the walls it sees.
+//! Tracks the pose of a mouse: dead reckoning, corrected by visible walls.
 
 use tolman_geom::{Pose, Vector};
 use tolman_maze::Direction;
@@ -7,8 +7,8 @@ use tolman_robot::{Compass, Odometry, Ranges, Rolls, Scan, TurnTranslate};
 use super::MazeMouseConfig;
 use super::sight::{self, TOLERANCE};
 
-/// Returns the pose of a mouse that was at `pose` a time step before and drove `command`, by its
-/// wheels, its compass and the walls.
+/// Returns the pose of a mouse after a time step from `pose` with `command`, by its wheels, its
+/// compass and the walls.
 ///
 /// Walls stand on the lines of the grid. A range that ends near a line gives the robot's distance
 /// from it. The wheels' error therefore only has to stay below half a cell between two walls.
@@ -32,8 +32,8 @@ pub(super) fn next_pose(
     pose
 }
 
-/// Returns the displacement from `pose` to where the walls show the mouse: the mean over all beams
-/// that meet one, on each axis.
+/// Returns the displacement from `pose` to the position that the walls show: the mean over all
+/// beams that meet one, on each axis.
 fn correction(scan: &Scan, pose: Pose, config: &MazeMouseConfig) -> Vector {
     let pitch = config.pitch;
     let (mut sum, mut count) = (Vector::zeros(), Vector::zeros());

@@ -4,14 +4,14 @@ use tolman_geom::Point;
 
 use super::BetterMap;
 
-/// A map as it was learned, and with the walls that barred the way since.
+/// A learned map, and a copy with the walls that have barred the way since.
 #[derive(Clone, Debug)]
 pub(super) struct ChangedMap {
     learned: Arc<BetterMap>,
     now: Arc<BetterMap>,
     /// Number of times that such a wall has blocked the way.
     barred: u32,
-    /// Whether such walls block every way, so that it follows the map as learned.
+    /// Whether such walls block every way, so that the map as learned is used.
     is_cut_off: bool,
 }
 
@@ -33,13 +33,13 @@ impl ChangedMap {
         &self.learned
     }
 
-    /// Returns the map as it is now.
+    /// Returns the map with the new walls.
     pub(super) const fn now(&self) -> &Arc<BetterMap> {
         &self.now
     }
 
-    /// Records that these walls bar the way at a standpoint. Draws them when they have done so
-    /// often enough and another way leads to the goal, and returns whether it did. O(1), or the
+    /// Records that these walls bar the way at a standpoint. Draws them once they have done so
+    /// often enough and another way leads to the goal. Returns whether it drew them. O(1), or the
     /// cost of preparing a map.
     pub(super) fn bar(&mut self, walls: &[Point], at: Point) -> bool {
         self.barred += 1;

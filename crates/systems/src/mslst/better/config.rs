@@ -10,10 +10,9 @@ use crate::mslst::ROBOT_UNIT;
 pub struct BetterConfig {
     /// Diameter of the robot, m.
     pub diameter: f64,
-    /// Standard deviation of what the wheels rolled in a time step, as a share of it.
+    /// Standard deviation of the odometry of a time step, as a share of its distance.
     pub odometry_sd: f64,
-    /// Standard deviation of how far a wall pushed the robot to the side in a time step in which it
-    /// touched one, m.
+    /// Standard deviation of the sideways push by a wall in a time step with a touch, m.
     pub slide_sd: f64,
     /// Errors of its motors.
     pub motors: Motors,
@@ -21,11 +20,11 @@ pub struct BetterConfig {
     pub corridor_width: f64,
     /// Length of an action, m.
     pub action_way: f64,
-    /// Standard deviation of that, as a share of it.
+    /// Standard deviation of the distance of an action, as a share of it.
     pub action_sd: f64,
-    /// Ranges below which the layers refuse to go on, m.
+    /// Range below which the layers stop, m.
     pub buffer: f64,
-    /// Part that is switched off, to measure its effect.
+    /// Part that is switched off, to measure its effect; `None` for the whole system.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub without: Option<BetterPart>,
 }
@@ -34,9 +33,9 @@ pub struct BetterConfig {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{field} is {value}, expected {least} to {most}")]
 pub struct BetterConfigError {
-    /// The field.
+    /// Name of the field.
     pub field: &'static str,
-    /// Its value.
+    /// Value that was given.
     pub value: f64,
     /// Least value allowed.
     pub least: f64,
@@ -48,11 +47,11 @@ pub struct BetterConfigError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum BetterPart {
-    /// Corrects positions by the walls. Without it, positions are what the wheels say.
+    /// Corrects positions by the walls. Without it, positions come from odometry.
     Fit,
-    /// Goes where the map has gaps. Without it, wanders like Avoid until there are none.
+    /// Goes to the gaps of the map. Without it, wanders like Avoid until there are none.
     Exploration,
-    /// Plans for motors that err. Without it, plans for exact ones.
+    /// Plans for motors with errors. Without it, plans for exact ones.
     Chances,
     /// Chooses the action that is best on average over the belief. Without it, chooses the best one
     /// at the likeliest standpoint.
@@ -132,13 +131,13 @@ impl BetterConfig {
 #[serde(deny_unknown_fields)]
 #[non_exhaustive]
 pub struct Motors {
-    /// Turn in a time step of the command 1, rad.
+    /// Turn in a time step per unit of the command, rad.
     pub turn_per_command: f64,
     /// Error of that turn, as a share (standard deviation).
     pub turn_sd: f64,
-    /// Way in a time step of the command 1, m.
+    /// Distance in a time step per unit of the command, m.
     pub way_per_command: f64,
-    /// Error of that way, as a share (standard deviation).
+    /// Error of that distance, as a share (standard deviation).
     pub way_sd: f64,
 }
 

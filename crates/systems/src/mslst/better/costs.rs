@@ -1,7 +1,7 @@
 use tolman_planners::Decisions;
 
-/// Average cost of each action until the goal, at each standpoint and facing along either axis: ten
-/// bytes per standpoint.
+/// Average cost of each action until the goal, at each standpoint and along either axis: ten bytes
+/// per standpoint.
 ///
 /// The plan's decisions take thirty times as much, and are not needed afterwards.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -16,10 +16,10 @@ pub(super) struct ActionCosts {
 const OPTIONS: usize = 8;
 /// Cost of a standpoint from which no way leads to the goal, time steps.
 pub(super) const HOPELESS: f32 = 1e4;
-/// Steps in which the least costs are kept, time steps.
+/// Resolution of the stored least costs, time steps.
 const LEAST_UNIT: f64 = 0.25;
-/// Steps in which the others are, time steps: an action that costs 32 more is as good as one that
-/// costs 100 more.
+/// Resolution of the other costs, relative to the least, time steps. Costs more than 32 above the
+/// least count as equal.
 const MORE_UNIT: f64 = 0.125;
 
 impl ActionCosts {

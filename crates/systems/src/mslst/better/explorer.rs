@@ -12,7 +12,7 @@ use super::stop::Stop;
 use super::{BetterConfig, BetterPart};
 use crate::{Brain, Doing, RolledStep};
 
-/// Learns a [`ScanMap`], and goes where it has gaps until it has none.
+/// Learns a [`ScanMap`], and goes to its gaps until none is left.
 #[derive(Clone, Debug)]
 pub struct BetterExplorer {
     config: BetterConfig,
@@ -29,7 +29,7 @@ pub struct BetterExplorer {
     trail: Vec<Point>,
     /// Readings when its last action ended, until it sets off.
     stop: Option<Stop>,
-    /// Number of maps that it dropped because it was lifted, and of actions that made them.
+    /// Number of dropped maps because the robot was lifted.
     dropped: u32,
     forgotten: usize,
 }
@@ -48,10 +48,10 @@ enum Plan {
 /// of the arena.
 const DOUBTFUL: f64 = 0.01;
 const SURE: f64 = 0.98;
-/// Number of dropped maps from which on contradicting walls are no sign of a lift. Walls of rooms
-/// may contradict one another without a lift.
+/// Number of dropped maps above which contradicting walls are no sign of a lift: walls of rooms may
+/// contradict one another without a lift.
 const MOST_DROPPED: u32 = 3;
-/// Cost of a quarter turn, in metres of way.
+/// Cost of a quarter turn, as a distance, m.
 const TURN: f64 = 0.35;
 
 impl BetterExplorer {
@@ -77,7 +77,7 @@ impl BetterExplorer {
         }
     }
 
-    /// Returns the map as learned so far.
+    /// Returns the map so far.
     #[must_use]
     pub const fn learned(&self) -> &ScanMap {
         &self.map
@@ -89,8 +89,8 @@ impl BetterExplorer {
         CorridorMap::of(&self.map.chart(), self.config.corridor_width)
     }
 
-    /// Returns the reason why the map is unfinished or doubtful, in a sentence without a full stop;
-    /// `None` if nothing speaks against it.
+    /// Returns the reason why the map is unfinished or doubtful, as a sentence without a full stop;
+    /// `None` if there is none.
     #[must_use]
     pub fn doubt(&self) -> Option<&'static str> {
         if self.plan != Plan::Finished {
@@ -105,7 +105,7 @@ impl BetterExplorer {
         self.map
     }
 
-    /// Begins another map: it cannot know where the last one goes on.
+    /// Begins another map, because the robot's position on the last one is unknown.
     fn begin_anew(&mut self) {
         *self = Self {
             beams: core::mem::take(&mut self.beams),

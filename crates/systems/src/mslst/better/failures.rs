@@ -30,7 +30,7 @@ impl Failures {
         self.last.push_back((at, action));
     }
 
-    /// Returns what an action costs at a place for having failed there, time steps. O(failures).
+    /// Returns the extra cost of an action at a place where it has failed, time steps. O(failures).
     pub(super) fn cost(&self, at: Point, action: Direction) -> f64 {
         let here =
             |(place, failed): &&(Point, Direction)| *failed == action && (place - at).norm() < NEAR;

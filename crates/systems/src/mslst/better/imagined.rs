@@ -21,7 +21,7 @@ pub(super) struct Imagined<'a> {
     sensing: LaserSensing,
 }
 
-/// It goes in steps of that, m, and feels for a wall after each.
+/// Length of a stride, m: the robot checks for a wall after each.
 const STRIDE: f64 = 0.05;
 /// Maximum sideways push by a wall in a stride, m.
 const ASIDE: f64 = 0.05;
@@ -63,7 +63,7 @@ impl<'a> Imagined<'a> {
         }
     }
 
-    /// Returns a random number with this standard deviation, none beyond 1.7 of them.
+    /// Returns a random number with this standard deviation, limited to 1.7 standard deviations.
     fn off(&mut self, sd: f64) -> f64 {
         let most = libm::sqrt(3.0) * sd;
         if most > 0.0 {
@@ -73,7 +73,7 @@ impl<'a> Imagined<'a> {
         }
     }
 
-    /// Goes straight ahead, or along what it meets.
+    /// Goes straight ahead, or along an obstacle.
     fn go(&mut self, way: f64) {
         let ahead = self.pose.heading.unit() * way.signum();
         let left = Vector::new(-ahead.y, ahead.x) * ASIDE;

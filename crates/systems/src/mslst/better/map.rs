@@ -22,15 +22,14 @@ pub struct BetterMap {
     costs: ActionCosts,
 }
 
-/// Costs count as settled when none changes by more, time steps; and at the latest after the rounds
-/// below.
+/// Change of costs below which they count as settled, time steps; the rounds below are the limit.
 const SETTLED: f32 = 0.01;
 const MOST_SWEEPS: usize = 200;
-/// Distance within which a standpoint is about where the robot is, m.
+/// Distance within which a standpoint counts as near the robot, m.
 const ABOUT: f64 = 0.25;
 
 impl BetterMap {
-    /// Works out where its robot can stand and what the ways to the goal cost.
+    /// Computes where its robot can stand and the costs of the ways to the goal.
     ///
     /// # Errors
     /// If the layers cannot read the ring.
@@ -50,8 +49,8 @@ impl BetterMap {
         })
     }
 
-    /// Returns the map with walls at these points, too, or `None` where the layers cannot read the
-    /// ring.
+    /// Returns the map with additional walls at these points, or `None` if the layers cannot read
+    /// the ring.
     pub(super) fn with_walls(&self, at: &[Point]) -> Option<Self> {
         let chart = self.chart().with_walls(at);
         Self::of(chart, self.standpoints.ring(), &self.config).ok()
@@ -63,13 +62,13 @@ impl BetterMap {
         self.standpoints.chart()
     }
 
-    /// Returns the places and ways of what was learned.
+    /// Returns the learned places and ways.
     #[must_use]
     pub const fn corridors(&self) -> &CorridorMap {
         &self.corridors
     }
 
-    /// Returns whether a way leads to the goal from about a point.
+    /// Returns whether a way leads to the goal from near a point.
     pub(super) fn leads_on(&self, from: Point) -> bool {
         let numbered = (0..).zip(self.standpoints.positions());
         let near = numbered.filter(|(_, at)| (at - from).norm() < ABOUT);
@@ -81,8 +80,8 @@ impl BetterMap {
         near.into_iter().any(leads)
     }
 
-    /// Returns the time steps to the goal on average from a standpoint by an action, facing along
-    /// an axis.
+    /// Returns the mean number of time steps to the goal from a standpoint by an action, facing
+    /// along an axis.
     pub(super) fn cost(&self, number: u32, axis: usize, action: Direction) -> f64 {
         let option = axis * Direction::ALL.len() + action.index();
         self.costs.cost(number, option)

@@ -31,7 +31,7 @@ pub struct BetterMapFile {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum BetterMapFileError {
-    /// The header or the JSON is invalid, or names another system; or the map cannot be written as
+    /// The header or the JSON is invalid, names another system, or the map cannot be written as
     /// JSON.
     #[error(transparent)]
     File(#[from] FileError),
@@ -54,7 +54,7 @@ pub enum BetterMapFileError {
     /// A true position is invalid.
     #[error("the true position of place {place}, ({}, {}) m, is invalid: learn the map again", at.x, at.y)]
     Site {
-        /// The place.
+        /// Number of the place.
         place: usize,
         /// The position, m.
         at: Point,
@@ -86,7 +86,7 @@ impl BetterMapFile {
     /// Reads the text of a file.
     ///
     /// # Errors
-    /// [`BetterMapFileError`] with the place and what to do about it.
+    /// [`BetterMapFileError`] with the place and the repair.
     pub fn from_json(text: &str) -> Result<Self, BetterMapFileError> {
         let (origin, body): (_, Body) = FILES.read(text)?;
         body.config.check()?;
@@ -101,7 +101,7 @@ impl BetterMapFile {
     }
 }
 
-/// Refuses sites that are not one for each place, or lie nowhere.
+/// Refuses sites that are not finite, or not one for each place.
 fn check_sites(sites: &[Point], places: usize) -> Result<(), BetterMapFileError> {
     let found = sites.len();
     if found != 0 && found != places {

@@ -1,10 +1,11 @@
 //! A better MSLST, on the same scans, compass and motors, with the encoders that the paper's robot
 //! had and did not use.
 //!
-//! - [`BetterExplorer`] learns: it merges places while its map grows, and goes where the map has
-//!   gaps until it has none.
+//! - [`BetterExplorer`] learns: it merges places while its map grows, and goes to the map's gaps
+//!   until none is left.
 //! - [`BetterMap`] is the learned map made ready. The robot simulates every action from every
-//!   standpoint on its own map. So it knows the cost of each way to the goal for a robot that errs.
+//!   standpoint on its own map. So the map knows the cost of each way to the goal for a robot with
+//!   errors.
 //! - [`BetterMapFile`] keeps the learned map.
 //! - [`BetterNavigator`] navigates: it believes in places instead of strings of states, and chooses
 //!   the action of least average cost.

@@ -15,8 +15,8 @@ use super::rehearsal::facing;
 use super::{BetterMap, BetterPart};
 use crate::{Brain, Doing, RolledStep};
 
-/// Finds out where it is on its map, and does what leads to the goal soonest on average over all it
-/// believes.
+/// Localizes on its map, and takes the action that reaches the goal soonest on average over its
+/// belief.
 #[derive(Clone, Debug)]
 pub struct BetterNavigator {
     maps: ChangedMap,
@@ -33,9 +33,9 @@ pub struct BetterNavigator {
 
 /// Least probability at which a standpoint counts.
 const NO_SAY: f64 = 1e-4;
-/// Probability of its place at which it says where it is.
+/// Minimum probability of its place at which it states the place.
 const SURE_TO_SAY: f64 = 0.99;
-/// Least probability of its place at which the robot judges what is new there.
+/// Minimum probability of its place at which it judges new walls there.
 const SURE: f64 = 0.9;
 
 impl BetterNavigator {
@@ -54,13 +54,13 @@ impl BetterNavigator {
         }
     }
 
-    /// Returns the map it navigates by.
+    /// Returns the map as learned, without new walls.
     #[must_use]
     pub fn chart(&self) -> &ScanChart {
         self.current().chart()
     }
 
-    /// Returns the map as it is now.
+    /// Returns the map with new walls.
     fn current(&self) -> &BetterMap {
         self.maps.now()
     }
@@ -85,7 +85,7 @@ impl BetterNavigator {
         }
     }
 
-    /// Returns where it most likely is.
+    /// Returns the likeliest position of the robot.
     fn likeliest(&self) -> Option<Point> {
         let number = self.belief.likeliest()?;
         self.current().standpoints.position(number)
@@ -105,7 +105,7 @@ impl BetterNavigator {
             .is_some_and(|at| corridors.at(at).is_some())
     }
 
-    /// Looks for walls that are not on its map and have just barred its way.
+    /// Looks for walls beyond its map that have just barred its way.
     fn meet(&mut self, heading: Heading, scan: &Scan) {
         let map = Arc::clone(self.maps.now());
         let on = &map.standpoints;
@@ -124,13 +124,13 @@ impl BetterNavigator {
         }
     }
 
-    /// Believes on the map as it is now what it believed on that before.
+    /// Carries the belief over from the former map to the present one.
     fn carry_over(&mut self, before: &BetterMap) {
         let now = &self.maps.now().standpoints;
         self.belief = self.belief.carried_over(&before.standpoints, now);
     }
 
-    /// Returns the action that costs least on average over all it believes.
+    /// Returns the action of least mean cost over its belief.
     fn cheapest(&self) -> Option<Direction> {
         let map = self.current();
         let axis = facing(self.heading);

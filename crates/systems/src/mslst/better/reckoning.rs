@@ -5,7 +5,7 @@ use tolman_maze::Direction;
 use super::BetterConfig;
 use crate::{Doing, RolledStep};
 
-/// Displacement of the robot since it was last asked, along the compass's axes.
+/// Displacement of the robot since it was last taken, along the compass's axes.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Reckoning {
     heading: Option<Heading>,
@@ -13,9 +13,9 @@ pub(super) struct Reckoning {
     is_fresh: bool,
     moved: Vector,
     variance: Vector,
-    /// Displacement of the action under way, by the wheels.
+    /// Displacement of the action in progress, by odometry.
     rolled: Vector,
-    /// In how many of its time steps they said so, and in how many they said nothing.
+    /// Number of its time steps with odometry that leads on, and of those without odometry.
     heard: u32,
     unheard: u32,
 }
@@ -25,12 +25,12 @@ const STEPS_OF_ACTION: u32 = 2;
 /// Minimum distance of a step that leads on, as a share of an action's.
 const LEADS_ON: f64 = 0.1;
 
-/// Standard deviation of how far an action leads aside whose way the wheels do not tell, as a share
-/// of it.
+/// Standard deviation of an action's sideways displacement without odometry, as a share of its
+/// distance.
 const ASIDE: f64 = 0.05;
 
 impl Reckoning {
-    /// Adds a time step. If the wheels give nothing, the action's expected motion counts.
+    /// Adds a time step. Without odometry, the action's expected motion counts.
     pub(super) fn add(&mut self, seen: &RolledStep, config: &BetterConfig) {
         let along = self.along(seen.step.heading);
         if let (Some(along), Some(odometry)) = (along, seen.odometry) {
@@ -50,8 +50,8 @@ impl Reckoning {
         }
     }
 
-    /// Returns which way a time step led at whose end the compass says `now`; nothing where it has
-    /// never said anything.
+    /// Returns the mean heading of a time step at whose end the compass gives `now`. `None` if the
+    /// compass gave no heading before the step.
     fn along(&mut self, now: Option<Heading>) -> Option<Heading> {
         let (before, was_fresh) = (self.heading, self.is_fresh);
         (self.heading, self.is_fresh) = (now.or(before), now.is_some());
@@ -63,7 +63,7 @@ impl Reckoning {
         }
     }
 
-    /// Returns the way since the last time, and its standard deviations, and begins again.
+    /// Returns the displacement since the last call and its standard deviations, and starts again.
     pub(super) fn take(&mut self) -> (Vector, Vector) {
         let (moved, variance) = (self.since(), self.variance);
         (self.moved, self.rolled, self.variance) =
@@ -71,7 +71,7 @@ impl Reckoning {
         (moved, variance.map(libm::sqrt))
     }
 
-    /// Returns the way since the last time.
+    /// Returns the displacement since the last call of [`take`](Self::take).
     pub(super) fn since(&self) -> Vector {
         self.moved + self.rolled
     }
@@ -105,8 +105,8 @@ mod tests {
     use super::*;
     use crate::TimeStep;
 
-    /// Returns the displacement to the east, m, of a robot whose wheels give these distances per
-    /// step, and its standard deviation.
+    /// Returns the displacement to the east, m, and its standard deviation, for these distances per
+    /// step by odometry.
     fn reckoned(told: &[Option<f64>], outcome: Outcome) -> (Vector, Vector) {
         let step = |doing, distance: Option<f64>| RolledStep {
             step: TimeStep {

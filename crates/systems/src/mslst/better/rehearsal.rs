@@ -13,18 +13,18 @@ use super::imagined::Imagined;
 use super::{BetterConfig, BetterPart};
 use crate::stream;
 
-/// The axes a robot faces along: east–west, north–south.
+/// Axes along which a robot faces: east–west, north–south.
 const AXES: [Direction; 2] = [Direction::East, Direction::North];
 /// Number of trials of each action from each standpoint and axis.
 const TRIES: u32 = 4;
-/// Angle by which a robot looks past its axis, rad.
+/// Maximum angle between a robot's heading and its axis, rad.
 const ASKEW: f64 = 5.0 * core::f64::consts::PI / 180.0;
-/// Time steps after which an action counts as one that leads nowhere.
+/// Number of time steps after which an action counts as leading nowhere.
 const LONGEST_ACTION: u32 = 40;
 
-/// Tries every action in thought, from every standpoint and along every axis, with the robot's own
-/// layers on its own map. Returns costs in time steps, and where each action leads. O(standpoints ·
-/// tries · steps · beams).
+/// Simulates every action, from every standpoint and along every axis, with the robot's own layers
+/// on its own map. Returns costs in time steps, and the ends of each action. O(standpoints · tries
+/// · steps · beams).
 ///
 /// # Errors
 /// If the layers cannot read the ring.
@@ -67,7 +67,7 @@ pub(super) fn rehearse(
     Ok(decisions)
 }
 
-/// Returns the number of the state of a robot that stands at a standpoint and faces along an axis.
+/// Returns the number of the state at a standpoint with a heading along an axis.
 pub(super) const fn state(standpoint: u32, axis: usize) -> usize {
     standpoint as usize * AXES.len() + axis
 }
@@ -82,7 +82,7 @@ fn axis_of(direction: Direction) -> usize {
     facing(heading_of(direction))
 }
 
-/// Returns a pose near a standpoint, about along an axis.
+/// Returns a pose near a standpoint, roughly along an axis.
 fn about(standpoint: Point, axis: Direction, rng: &mut ChaCha8Rng) -> Pose {
     let mut off = |most: f64| rng.random_range(-most..=most);
     let half = 0.5 * Standpoints::SPACING;

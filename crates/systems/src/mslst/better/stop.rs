@@ -5,24 +5,23 @@ use tolman_robot::Scan;
 
 use crate::RolledStep;
 
-/// Readings of the robot when its last action ended. By this it notices that it was lifted since.
+/// Readings of the robot at the end of its last action, by which it notices a later lift.
 #[derive(Clone, Debug)]
 pub(super) struct Stop {
     heading: Heading,
     scan: Scan,
 }
 
-/// Difference between what the compass and what the wheels say of a turn, rad, that no robot comes
-/// to without a lift.
+/// Difference between a turn by compass and by odometry that is impossible without a lift, rad.
 const UNEXPLAINED_TURN: f64 = FRAC_PI_4;
-/// Distance by which a wall has to be nearer than where the robot saw through, m: errors of ranges
-/// and wheels stay below it.
+/// Distance by which a wall has to be nearer than an earlier clear beam, m: errors of ranges and
+/// wheels stay below it.
 const NEARER: f64 = 0.3;
 /// Share of the beams that have to contradict the other scan.
 const CONTRADICTING: f64 = 0.2;
 
 impl Stop {
-    /// Returns what was sensed; nothing where a reading is missing.
+    /// Returns the stop with these readings, or `None` if one is missing.
     pub(super) fn of(heading: Option<Heading>, scan: Option<&Scan>) -> Option<Self> {
         Some(Self {
             heading: heading?,
@@ -31,8 +30,8 @@ impl Stop {
     }
 
     /// Returns whether the robot was lifted before the time step `seen`, the first since it
-    /// stopped, at whose end it has this scan. The compass then contradicts the wheels, or a scan
-    /// has walls where the other sees through. O(beams).
+    /// stopped. `seen` holds the scan at its end. The compass then contradicts the wheels, or a
+    /// scan has walls where the other sees through. O(beams).
     pub(super) fn was_left_by_a_lift(&self, seen: &RolledStep, scan: Option<&Scan>) -> bool {
         let (Some(heading), Some(odometry)) = (seen.step.heading, seen.odometry) else {
             return false;
@@ -53,7 +52,7 @@ impl Stop {
 }
 
 /// Returns the share of the beams of one scan that end where the other sees through. `offset` leads
-/// from where the other was taken to where the one was.
+/// from the other's position to the one's.
 fn contradicting(one: (&Scan, Heading), other: (&Scan, Heading), offset: Vector) -> f64 {
     let (scan, heading) = one;
     let ends = (0..)
@@ -67,8 +66,8 @@ fn contradicting(one: (&Scan, Heading), other: (&Scan, Heading), offset: Vector)
     contradict.count() as f64 / beams
 }
 
-/// Returns whether the beams about the direction of a point, relative to where the scan was taken,
-/// all reach beyond it.
+/// Returns whether all beams near the direction of a point reach beyond it. The point is relative
+/// to the scan's position.
 fn sees_through((scan, heading): (&Scan, Heading), at: Vector) -> bool {
     let bearing = heading.turn_to(Heading::of(at));
     [-1, 0, 1].into_iter().all(|beside| {
@@ -106,7 +105,7 @@ mod tests {
     }
 
     /// Returns whether a robot thinks that it was lifted. It stopped between the walls `before`,
-    /// looking east. Now it senses `now`, looking `heading`, and its wheels say how it moved.
+    /// looking east. Now it senses `now`, looking `heading`, and has moved by odometry.
     fn was_lifted(before: Walls, now: Walls, heading: Heading, wheels: Odometry) -> bool {
         let stop = Stop::of(Some(Heading::EAST), Some(&scan(before, Heading::EAST))).unwrap();
         let now = scan(now, heading);

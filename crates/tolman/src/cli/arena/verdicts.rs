@@ -1,4 +1,4 @@
-//! `tolman arena --own-verdict`: what systems say about their own maps, right ones and wrong ones.
+//! `tolman arena --own-verdict`: compares the systems' verdicts on their own maps with the truth.
 
 use std::io::Write;
 

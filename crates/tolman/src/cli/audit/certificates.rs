@@ -94,9 +94,11 @@ pub(super) enum CertificateFileError {
     },
     #[error("k is {told}; this program audits with {expected}: audit again without --verify")]
     Bound { told: f64, expected: f64 },
-    #[error("line {line} of the graph holds no edge from {from} to {to}")]
+    #[error(
+        "line {line} of the graph holds no edge from {from} to {to}: name the graph it was made from"
+    )]
     NoEdge { line: usize, from: u64, to: u64 },
-    #[error("the graph has no pose {id}")]
+    #[error("the graph has no pose {id}: name the graph it was made from")]
     NoPose { id: u64 },
 }
 

@@ -83,7 +83,7 @@ impl Audited<'_> {
         )
     }
 
-    /// Returns what the graph's short cycles suggest about its standard deviations, or `None` if
+    /// Returns the hint that the graph's short cycles give about its standard deviations. `None` if
     /// the factor in use is near enough.
     pub(super) fn told_of_scale(&self) -> Option<String> {
         let estimate = self.estimate?;

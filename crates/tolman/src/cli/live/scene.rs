@@ -50,7 +50,7 @@ pub(in crate::cli) struct Now<'a> {
     pub(in crate::cli) pose: Pose,
     /// Whether the step ended at a wall.
     pub(in crate::cli) bump: bool,
-    /// The action under way, or what the robot is doing.
+    /// Action in progress, or the robot's activity.
     pub(in crate::cli) action: &'a str,
     /// Outcome of an action that ended with this step; `None` if none did.
     pub(in crate::cli) ended: Option<&'a str>,

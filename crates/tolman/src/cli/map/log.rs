@@ -112,8 +112,8 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     }
 }
 
-/// Returns why a map is doubtful, by the mapper's own verdict or by what the laser read; `None` if
-/// it is not.
+/// Returns the reason to doubt a map, by the mapper's own verdict or by the laser's readings;
+/// `None` if there is none.
 fn doubt(found: &MappedLog, picture: &MapPicture) -> Option<String> {
     let is_doubtful = found.certainty.is_some_and(|certainty| certainty < 0.5);
     let by_itself = is_doubtful.then(|| {
@@ -128,7 +128,7 @@ fn doubt(found: &MappedLog, picture: &MapPicture) -> Option<String> {
     by_itself.or(by_its_places).or_else(|| picture.doubt())
 }
 
-/// Returns what was found, one line each.
+/// Returns the findings, one line each.
 fn sentences(found: &MappedLog) -> Vec<String> {
     let MappedLog {
         closures,
@@ -149,7 +149,7 @@ fn sentences(found: &MappedLog) -> Vec<String> {
     told
 }
 
-/// Returns the error of a file that is not a log: what it is instead, if that is known.
+/// Returns the error of a file that is not a log, with the kind that it is, if known.
 fn explain(path: &Path, error: anyhow::Error) -> anyhow::Error {
     match input::text(path) {
         Ok(text) if Kind::Log.is_not_of(&text) => {

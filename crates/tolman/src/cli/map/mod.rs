@@ -17,7 +17,7 @@ use crate::cli::kind::Kind;
 use crate::cli::{App, Failure, OrBadInput, file};
 use crate::system::{LearnedMap, MapText};
 
-/// Maps what a robot's laser saw, from its log; with a subcommand, shows, checks or plans on a
+/// Makes a map from a robot's log of laser scans; with a subcommand, shows, checks or plans on a
 /// learned map
 #[derive(clap::Args)]
 #[command(
@@ -65,7 +65,7 @@ pub(in crate::cli) struct Show {
     file: PathBuf,
     #[command(flatten)]
     ground: Ground,
-    /// Draw the map over the maze or the world in which it was learned; give that too
+    /// Draw the map over its maze or world, which must be given as well
     #[arg(long, value_name = "FILE", requires = "ground")]
     svg: Option<PathBuf>,
     /// Write the figures as JSON
@@ -193,7 +193,7 @@ pub(in crate::cli) enum MapOr<T> {
     Other(T),
 }
 
-/// Returns the text of a learned map's file, or what `other` makes of the text.
+/// Returns the text of a learned map's file, or the result of `other` for another kind of text.
 ///
 /// # Errors
 /// Bad input with the file's name, or the error of `other`.

@@ -26,7 +26,7 @@ pub(crate) struct Arguments {
     /// Number of times that each fragment is walked in each direction
     #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u16).range(1..))]
     walks: u16,
-    /// Maximum similarity f_S of two fragments; the paper takes two fragments above 0.9 for one
+    /// Maximum similarity f_S of two fragments; the paper treats two fragments above 0.9 as one
     #[arg(long, value_name = "F_S", default_value_t = 0.8, value_parser = share)]
     below: f64,
 }

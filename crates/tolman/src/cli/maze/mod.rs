@@ -18,7 +18,7 @@ use super::{App, Failure, OrBadInput, file};
 pub(super) use collection::{Collection, all_solved, each};
 pub(super) use input::{name, read, text, world_name};
 
-/// Looks at mazes, checks, converts and makes them
+/// Shows, checks, converts and generates mazes
 #[derive(Subcommand)]
 pub(super) enum Verb {
     Show(show::Arguments),

@@ -39,8 +39,8 @@ impl Output {
         }
     }
 
-    /// Returns, in words, what the maze file says that the format cannot hold; `None` if nothing is
-    /// lost.
+    /// Returns, in words, the contents of the maze file that the format cannot hold; `None` if
+    /// nothing is lost.
     fn lost(&self, maze: &MazeFile) -> Option<&'static str> {
         if self.to == Format::Tolman {
             return None;

@@ -40,9 +40,9 @@ pub(in crate::cli) struct Way {
     walls: WallsKnown,
     /// Number of steps before its last run, where that is to be drawn apart; `None` otherwise.
     run: Option<usize>,
-    /// Numbers of the steps after which it was put back to the start.
+    /// Numbers of the steps after which the mouse was put back to the start.
     lifts: Vec<u32>,
-    /// View that shows the way meanwhile, if any.
+    /// View that shows the way live; `None` without one.
     live: Option<Live>,
 }
 
@@ -79,8 +79,8 @@ impl Way {
         Self::of_pitch(name, maze, header, PITCH)
     }
 
-    /// Returns the same as [`new`](Self::new), for cells of another size: `pitch` is the distance
-    /// between the middles of two cells, m.
+    /// Returns the same as [`new`](Self::new), for cells of another size: the distance between the
+    /// middles of two cells is `pitch`, m.
     ///
     /// # Errors
     /// If the maze marks no start.
@@ -135,7 +135,7 @@ impl Way {
         self.course.in_cell(cell, direction)
     }
 
-    /// Records what the mouse sees where it is.
+    /// Records the mouse's view in its cell.
     pub(in crate::cli) fn see(&mut self, sides: &[SideSeen]) {
         let step = self.steps.len() as u32;
         sides.iter().for_each(|side| self.walls.see(step, *side));
@@ -169,7 +169,7 @@ impl Way {
         self.steps.push(step);
     }
 
-    /// Shows the outcome, `told` in words, and writes the files that `looks` asks for.
+    /// Shows the outcome, `told` in words, and writes the files that `looks` requests.
     ///
     /// # Errors
     /// If a file cannot be written, or the terminal has gone.

@@ -1,4 +1,4 @@
-//! The file that says how a mouse drives.
+//! Reads the file with a mouse's driving parameters.
 
 // Input holds any bytes: a reader indexes nothing.
 #![cfg_attr(not(test), warn(clippy::indexing_slicing))]

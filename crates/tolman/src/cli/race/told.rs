@@ -140,8 +140,7 @@ pub(super) fn in_words(leg: &RunLeg) -> String {
     }
 }
 
-/// Returns the cells of an exploration as letters. The first letter says where the mouse turns at
-/// the start.
+/// Returns the cells of an exploration as letters. The first letter gives the turn at the start.
 pub(super) fn search_path(maze: &Maze, cells: &[Cell]) -> String {
     let mut heading = maze
         .start()

@@ -5,10 +5,10 @@ use super::Vote;
 use super::feature_tree::{Feature, FeatureTree};
 use crate::diktiometry::{Signature, SignatureKind, ViewRotation};
 
-/// All views of all places, by their columns: "an input signature's columns are used to index the
-/// columns close to them, marking each signature found at the offset implied by the column match.
-/// When enough of a database signature's columns have been marked, the signature's place is
-/// suggested as a match candidate."
+/// Index of all views of all places, by their columns: "an input signature's columns are used to
+/// index the columns close to them, marking each signature found at the offset implied by the
+/// column match. When enough of a database signature's columns have been marked, the signature's
+/// place is suggested as a match candidate."
 ///
 /// The result is the paper's, the method is not. One column says little, so columns are indexed in
 /// groups. If `enough` columns agree, at least one of `columns - enough + 1` groups agrees as a
@@ -19,12 +19,12 @@ pub(super) struct ColumnIndex {
     /// One tree per group, or a single one for groups beginning at any column if views may be
     /// rotated.
     trees: Vec<FeatureTree>,
-    /// Views in the order in which they were taken in, which numbers them.
+    /// Views in order of insertion; the index is the view's number.
     views: Vec<Signature>,
 }
 
 impl ColumnIndex {
-    /// Takes in a view. O(groups · log² views), amortized.
+    /// Inserts a view. O(groups · log² views), amortized.
     pub(super) fn insert(&mut self, view: &Signature, kind: &SignatureKind) {
         let number = self.views.len() as u32;
         self.views.push(view.clone());
@@ -75,7 +75,7 @@ impl ColumnIndex {
 /// Neighbouring columns that are indexed together.
 struct Groups {
     count: usize,
-    /// Number of columns in each.
+    /// Number of columns in each group.
     size: usize,
 }
 
@@ -86,13 +86,13 @@ impl Groups {
         Self { count, size }
     }
 
-    /// Returns where the groups begin.
+    /// Returns the first column of each group.
     fn starts(&self) -> impl Iterator<Item = usize> + use<> {
         let size = self.size;
         (0..self.count).map(move |group| group * size)
     }
 
-    /// Returns the values of the columns from one on, round the circle.
+    /// Returns the values of the columns of a group that begins at `start`, round the circle.
     fn values(&self, view: &Signature, start: usize) -> Vec<f64> {
         let columns = (start..start + self.size).map(|column| column % view.columns());
         let values = columns.flat_map(|column| view.column(column));

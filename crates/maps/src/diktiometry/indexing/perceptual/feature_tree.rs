@@ -3,15 +3,15 @@ use alloc::vec::Vec;
 /// Feature by which a view is indexed: some of its columns, or a triangle of its edges.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Feature {
-    /// The values; all features of a tree have the same number.
+    /// Values; all features of a tree have the same number of values.
     pub(super) values: Vec<f64>,
-    /// The number of the view.
+    /// Number of the view.
     pub(super) view: u32,
-    /// The number of the column it is, or begins at.
+    /// Number of its column, or of its first column.
     pub(super) column: u32,
 }
 
-/// Maximum number of features that are not in a tree yet.
+/// Maximum number of features outside the balanced trees.
 const LOOSE: usize = 32;
 
 /// A growing k-d tree of features. It consists of several balanced trees, one for each binary digit
@@ -70,7 +70,7 @@ impl Hypercube<'_> {
         all.all(|((a, b), half_size)| (a - b).abs() <= *half_size)
     }
 
-    /// Visits what it holds of a balanced range.
+    /// Visits the features of a balanced range that lie in the hypercube.
     fn search(&self, range: &[Feature], axis: usize, visit: &mut impl FnMut(&Feature)) {
         let middle = range.len() / 2;
         let Some(feature) = range.get(middle) else {
@@ -89,7 +89,8 @@ impl Hypercube<'_> {
     }
 }
 
-/// Puts the middle of every range between the smaller and the larger.
+/// Sorts every range so that its median lies in the middle, between the smaller and the larger
+/// values.
 fn balance(features: &mut [Feature], axis: usize) {
     if features.len() < 2 {
         return;

@@ -1,4 +1,4 @@
-//! The second form of perceptual indexing: triples of features as triangles.
+//! Perceptual indexing, second form: triples of features as triangles.
 //!
 //! Source: S. Atiya, G. Hager, "Real-time vision-based robot localization", which the paper names
 //! beside columns. Each three vertical edges of the image make a triangle. Triangles are sorted by
@@ -11,23 +11,24 @@ use super::Vote;
 use super::feature_tree::{Feature, FeatureTree};
 use crate::diktiometry::{Signature, SignatureKind, ViewRotation};
 
-/// Maximum number of edges kept of a view, the clearest: 56 triangles.
+/// Maximum number of edges kept of a view, the clearest first: 56 triangles.
 const EDGES: usize = 8;
 
-/// Maximum number of borders used of a percept, the clearest: 560 triangles, whatever the number of
-/// columns. Twice the number of kept edges, since noise can make others clearer than those.
+/// Maximum number of borders used of a percept, the clearest first: 560 triangles, whatever the
+/// number of columns. It is twice the number of kept edges, since noise can make others clearer
+/// than those.
 const BORDERS: usize = 2 * EDGES;
 
-/// All views of all places, by triangles of their edges.
+/// Index of all views of all places, by triangles of their edges.
 ///
-/// An *edge* is the border between two columns that differ, with its *contrast*, by how much in
-/// each row. Three edges are a triangle: its sides are the angles between them, its corners the
-/// contrasts. Both are the same however the robot is turned, and contrasts are the same however
-/// bright it is.
+/// An *edge* is the border between two columns that differ. Its *contrast* is the difference in
+/// each row. Three edges form a triangle: its sides are the angles between them, its corners the
+/// contrasts. Both do not depend on the robot's rotation, and contrasts do not depend on
+/// brightness.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct TriangleIndex {
     tree: FeatureTree,
-    /// Number of triangles that have to be found, by view.
+    /// Number of triangles that must be found, by view.
     enough: Vec<usize>,
 }
 
@@ -46,9 +47,9 @@ impl Edge {
     }
 }
 
-/// A percept's features to be found.
+/// Features of a percept that are searched for.
 pub(super) struct Seen {
-    /// Its triangles, one from each of their longest sides.
+    /// Triangles of the percept, one from each of their longest sides.
     features: Vec<Feature>,
     columns: usize,
 }
@@ -145,7 +146,7 @@ const fn triples(count: usize) -> usize {
 /// Three edges, counter-clockwise.
 type Triangle<'a> = [&'a Edge; 3];
 
-/// The sides of a triangle that tell it: the third is what is left of the circle.
+/// Number of sides that identify a triangle: the third is what is left of the circle.
 const SIDES: usize = 2;
 
 /// Returns all triples of edges that are sorted by column.
@@ -163,7 +164,7 @@ fn side(from: &Edge, to: &Edge, columns: usize) -> usize {
     (to.column + columns - from.column) % columns
 }
 
-/// Returns the triangle from the beginning of its longest side on; if several are the longest, one
+/// Returns the triangle from the beginning of its longest side on. If several are the longest, one
 /// from each.
 fn turns(triangle: Triangle<'_>, columns: usize) -> impl Iterator<Item = Feature> + use<'_> {
     let [a, b, c] = triangle;
@@ -264,7 +265,7 @@ mod tests {
             prop_assert_eq!(found.contains(&(truth as u32)), edges(&stored[truth], &kind) >= 3);
         }
 
-        /// What is found does not depend on the rotation of the percept.
+        /// The result does not depend on the rotation of the percept.
         #[test]
         fn what_is_found_does_not_depend_on_how_the_robot_is_turned(
             views in prop::collection::vec(view(), 1..8),

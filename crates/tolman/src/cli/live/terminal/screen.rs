@@ -63,7 +63,7 @@ impl Screen {
         self.view.take(now);
     }
 
-    /// Sets what the system knows now.
+    /// Sets the system's present knowledge.
     pub(in crate::cli::live) fn know(&mut self, known: Glimpse) {
         self.stale = true;
         self.view.known = known;
@@ -136,8 +136,7 @@ impl Screen {
         }
     }
 
-    /// Draws what is out of date, and waits up to `at_most` for a key. Returns what the key asks
-    /// for.
+    /// Draws outdated parts, and waits up to `at_most` for a key. Returns the wish of that key.
     fn wish(&mut self, at_most: Duration) -> io::Result<Option<Wish>> {
         if self.interrupted.load(Ordering::Relaxed) {
             return Ok(Some(Wish::Interrupt));

@@ -1,4 +1,4 @@
-//! What is known of the run so far, and the frame that shows it.
+//! Collects the run so far, and draws the frame that shows it.
 
 use alloc::collections::VecDeque;
 use std::io::{self, IsTerminal};
@@ -57,7 +57,7 @@ pub(super) struct View {
     pub(super) scan: Option<Scan>,
     pub(super) trail: VecDeque<Point>,
     pub(super) beams: Beams,
-    /// The map learned so far, and where the robot believes it is.
+    /// Map learned so far, and the robot's believed position.
     pub(super) known: Glimpse,
     /// The outcome, once the run is over.
     pub(super) told: Option<String>,

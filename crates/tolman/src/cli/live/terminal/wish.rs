@@ -1,4 +1,4 @@
-//! What a key means.
+//! Meanings of keys.
 
 use ratatui::crossterm::event::{KeyCode, KeyEvent, KeyEventKind, KeyModifiers};
 
@@ -22,7 +22,7 @@ impl Wish {
     /// The keys, as the panel names them.
     pub(super) const KEYS: [&str; 3] = ["space pause   → step", "+/- speed   b beams", "q quit"];
 
-    /// Returns what a key press asks for, or `None` if the key has no meaning.
+    /// Returns the wish behind a key press, or `None` if the key has no meaning.
     pub(super) fn of(key: &KeyEvent) -> Option<Self> {
         if key.kind == KeyEventKind::Release {
             return None;
