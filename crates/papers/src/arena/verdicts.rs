@@ -7,7 +7,7 @@ use tolman_experiment::{BoxError, run_seed};
 use super::worlds::{ArenaWorld, DrawnWorld};
 
 /// Difficulties of the worlds in which maps are learned, the easiest first.
-const RUNGS: [Rung; 5] = [
+const RUNGS: [Rung; 7] = [
     Rung::new("small", FamilySize::Small, Condition::AsMade),
     Rung::new("middle", FamilySize::Middle, Condition::AsMade),
     Rung::new("large", FamilySize::Large, Condition::AsMade),
@@ -16,6 +16,16 @@ const RUNGS: [Rung; 5] = [
         "middle, kidnapping",
         FamilySize::Middle,
         Condition::Kidnapping,
+    ),
+    Rung::new(
+        "large, kidnapping",
+        FamilySize::Large,
+        Condition::Kidnapping,
+    ),
+    Rung::new(
+        "large, constant odometry",
+        FamilySize::Large,
+        Condition::ConstantOdometry,
     ),
 ];
 
