@@ -27,8 +27,8 @@ pub struct Avoid {
         serde(deserialize_with = "crate::read::at_least_zero")
     )]
     pub far_below: f64,
-    /// Turn command added away from a wall beside. Paper: "a small rotation"; here 0.05, as
-    /// Center's.
+    /// Turn command, a fraction of the full turn rate, that is added to turn away from a wall
+    /// beside. Paper: "a small rotation"; here 0.05, as Center's.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::finite"))]
     pub turn: f64,
     /// Number of beams from the middle one that are "directly in front" on either side. Paper: 1
@@ -38,7 +38,7 @@ pub struct Avoid {
     /// Number of beams beyond those, on either side, that are watched. Paper: 4 of 72.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::beams"))]
     pub beside: usize,
-    /// Whether this action has made a step ahead, and one back.
+    /// Whether the present action has made a step ahead, and a step back.
     #[cfg_attr(feature = "serde", serde(skip))]
     stepped: Steps,
 }

@@ -11,7 +11,8 @@ pub struct Center {
     /// Ratio of the distances to the two walls above which it steers. Paper: 1.25.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub ratio: f64,
-    /// Turn command added towards the middle. Paper: 0.05.
+    /// Turn command, a fraction of the full turn rate, that is added towards the middle. Paper:
+    /// 0.05.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::finite"))]
     pub turn: f64,
 }

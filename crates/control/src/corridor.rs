@@ -31,13 +31,13 @@ pub enum RingError {
     /// The corridor's width is not a positive length.
     #[error("the corridor is {width} m wide; give a finite width above 0 m")]
     Width {
-        /// The width given, m.
+        /// Width that was given, m.
         width: f64,
     },
     /// The robot's diameter is not a positive length.
     #[error("the robot is {robot_unit} m in diameter; give a finite diameter above 0 m")]
     RobotUnit {
-        /// The diameter given, m.
+        /// Diameter that was given, m.
         robot_unit: f64,
     },
 }
@@ -81,9 +81,9 @@ pub struct Corridor {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CorridorDetector {
-    /// Ring whose scans it reads.
+    /// Ring of beams whose scans the detector reads.
     ring: Ring,
-    /// Opposite pairs in the ring.
+    /// Number of pairs of opposite beams in the ring.
     pairs: usize,
     /// Sum of two ranges below which they count as two near walls, m.
     near: f64,
@@ -92,9 +92,11 @@ pub struct CorridorDetector {
 }
 
 impl CorridorDetector {
-    /// The paper's 1.625 corridor widths.
+    /// Sum of two opposite ranges below which both walls count as near, in corridor widths (the
+    /// paper).
     const NEAR_WIDTHS: f64 = 1.625;
-    /// The paper's 14 consecutive sums of 36.
+    /// Share of the half circle over which the sums must be near: 14 consecutive sums of 36 (the
+    /// paper).
     const RUN_SHARE: f64 = 14.0 / 36.0;
 
     /// Returns a detector for `ring` in corridors `width` metres wide.

@@ -18,16 +18,16 @@ pub struct View<'a> {
 /// A view, with the results that the stack computes once for all layers.
 #[derive(Clone, Copy, Debug)]
 pub struct Situation<'a> {
-    /// The perception.
+    /// Perception of the robot in this time step.
     pub view: View<'a>,
-    /// The corridor the robot is in, if it looks like one.
+    /// Corridor that the robot is in, or `None` if the view does not look like one.
     pub corridor: Option<Corridor>,
 }
 
 /// Proposal of the layers so far for this time step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Proposal {
-    /// The motor command.
+    /// Motor command for this time step.
     pub command: TurnTranslate,
     /// Outcome of the action if it ends with this step, or `None` while it goes on.
     pub ends: Option<Outcome>,

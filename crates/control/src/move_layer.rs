@@ -16,7 +16,7 @@ pub const fn heading_of(direction: Direction) -> Heading {
     }
 }
 
-/// Returns one metre in a compass direction, exactly along an axis.
+/// Returns the vector of one metre in a compass direction, exactly along an axis.
 #[must_use]
 pub const fn unit_of(direction: Direction) -> Vector {
     let (east, north) = direction.step();

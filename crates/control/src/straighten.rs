@@ -1,6 +1,7 @@
 use tolman_robot::Scan;
 
-/// Beams beside one, on either side, that a straight wall is looked for on: many first.
+/// Numbers of beams on either side of a beam on which a straight wall is looked for, the largest
+/// first.
 const BESIDE: [usize; 3] = [5, 3, 2];
 /// Maximum distance of a beam's end from a straight wall, as a share of its range. It is about two
 /// and a half times the noise of a laser that errs by 2 %.
@@ -117,7 +118,7 @@ mod tests {
         let truth = room();
         let mut noisy = truth.clone();
         for (index, range) in noisy.ranges.iter_mut().enumerate() {
-            // Signs without a pattern of their own.
+            // Signs in an irregular order.
             let sign = if (index * index / 3) % 2 == 0 {
                 1.0
             } else {

@@ -37,7 +37,7 @@ pub struct Dot {
 /// The paper's mean and its spread, drawn beside the box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PaperMark {
-    /// The paper's mean.
+    /// Mean that the paper gives, in the unit of the value axis.
     pub mean: f64,
     /// The standard deviation; `None` if the paper gives none.
     pub sd: Option<f64>,

@@ -184,7 +184,7 @@ impl Line {
 pub struct LinePoint {
     /// Position on the first axis.
     pub x: f64,
-    /// Value on the second axis.
+    /// Value on the second axis, in its unit.
     pub y: f64,
     /// Spread around the value: quartiles, a 95 % interval or extremes.
     pub spread: Option<ConfidenceInterval>,
@@ -220,7 +220,7 @@ pub struct Points {
     pub label: String,
     /// Series whose colour it is drawn in.
     pub series: Series,
-    /// Positions.
+    /// Positions of the points, in the units of the axes.
     pub positions: Vec<Point>,
 }
 

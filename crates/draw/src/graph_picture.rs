@@ -48,7 +48,7 @@ pub struct GraphNode {
     pub position: Point,
     /// Series whose colour it has.
     pub series: Series,
-    /// Its class by shape.
+    /// Shape of the node, which shows its class.
     pub mark: NodeMark,
     /// Text beside it; empty for none.
     pub label: String,
@@ -77,7 +77,7 @@ pub struct GraphEdge {
     pub to: usize,
     /// Series whose colour it has.
     pub series: Series,
-    /// Its class by line.
+    /// Style of the line, which shows the edge's class.
     pub line: EdgeLine,
     /// Text beside its middle; empty for none.
     pub label: String,

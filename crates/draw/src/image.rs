@@ -43,14 +43,14 @@ pub enum ImageError {
         /// Number of values found.
         found: usize,
     },
-    /// The picture cannot be written.
+    /// The PNG encoder refuses the picture.
     #[error("{width} × {height} pixels cannot be written as PNG")]
     Png {
         /// Number of pixels in a row.
         width: u32,
         /// Number of rows.
         height: u32,
-        /// The underlying error.
+        /// Error of the PNG encoder.
         source: png::EncodingError,
     },
 }

@@ -7,7 +7,7 @@ use tolman_experiment::{Procedure, Record, Row, Silent, Table, Tolerance, execut
 record! {
     /// One game.
     struct Game {
-        /// Tosses until the coin showed heads.
+        /// Number of tosses until the coin showed heads.
         tosses: u32 => neither("tosses").at_least(1).tolerance(CLOSE),
     }
 }

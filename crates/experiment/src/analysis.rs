@@ -39,21 +39,21 @@ pub struct MetricAnalysis {
 /// One metric of one row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
-    /// The name of the row.
+    /// Name of the row.
     pub row: String,
     /// Number of runs measured; 0 if there is only the paper's value.
     pub n: u64,
     /// Value in the metric's unit; NaN without runs.
     pub value: f64,
-    /// Whether the value was reached. If not, it is a lower bound.
+    /// Whether the event that the metric waits for happened. If not, the value is a lower bound.
     pub reached: Reached,
-    /// The standard deviation, for means and medians of two runs or more.
+    /// Standard deviation, in the metric's unit, for means and medians of two runs or more.
     pub sd: Option<f64>,
-    /// The mean, for means and medians.
+    /// Mean of the runs, for means and medians.
     pub mean: Option<f64>,
-    /// The median, for means and medians.
+    /// Median of the runs, for means and medians.
     pub median: Option<f64>,
-    /// The 95 % interval of the value.
+    /// 95 % confidence interval of the value.
     pub interval: Option<ConfidenceInterval>,
     /// Value of the paper.
     pub paper: Option<PaperValue>,
@@ -146,7 +146,7 @@ impl TableAnalysis {
 }
 
 impl Measured {
-    /// Returns the entry of a paper's value that we have no value for.
+    /// Returns the entry of a row for which only the paper has a value.
     fn alone(row: &Row, paper: &PaperValue) -> Self {
         let doubt = row.missing.clone().map_or(Doubt::NoRuns, Doubt::NoData);
         Self {

@@ -9,11 +9,11 @@ use super::hash::fnv64;
 /// The build that plays the runs. Results of different builds are never mixed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Build {
-    /// The commit it was built from, or `unknown`.
+    /// Commit that the program was built from, or `unknown`.
     pub commit: String,
-    /// The compiler, as it calls itself.
+    /// Name and version of the compiler.
     pub compiler: String,
-    /// A hash of the running executable, or `unknown` if it cannot be read.
+    /// Hash of the running executable, or `unknown` if it cannot be read.
     pub executable: String,
 }
 

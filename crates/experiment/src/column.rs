@@ -9,9 +9,9 @@ pub struct Column {
     pub field: String,
     /// Type of its values.
     pub kind: Kind,
-    /// Whether every run has it.
+    /// Whether every run has the field.
     pub presence: Presence,
-    /// Name on a page.
+    /// Name of the field on a page.
     pub title: String,
     /// Unit, shown after the title; empty if there is none.
     pub unit: String,
@@ -19,9 +19,9 @@ pub struct Column {
     pub better: Better,
     /// Definition, in a sentence.
     pub definition: String,
-    /// Minimum value of a run; `None` for no limit.
+    /// Minimum value in a run; `None` for no limit.
     pub low: Option<f64>,
-    /// Maximum value of a run; `None` for no limit.
+    /// Maximum value in a run; `None` for no limit.
     pub high: Option<f64>,
     /// Tolerance between our value and the paper's, unless a metric sets its own.
     pub tolerance: Option<Tolerance>,
@@ -213,7 +213,7 @@ impl Better {
 pub trait Value {
     /// Type of the values.
     const KIND: Kind;
-    /// Whether every run has it.
+    /// Whether every run has the field.
     const PRESENCE: Presence = Presence::Always;
 }
 

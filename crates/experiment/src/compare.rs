@@ -57,9 +57,9 @@ pub struct Differences {
 /// A difference in one field of a row.
 #[derive(Clone, Debug)]
 struct Found {
-    /// First run with the difference.
+    /// Index of the first run with the difference.
     run: u32,
-    /// The difference in that run, in words.
+    /// Difference in that run, in words.
     change: String,
     /// Number of runs with the difference.
     runs: usize,

@@ -14,17 +14,17 @@ pub enum Error {
     Unknown {
         /// `experiment`, `table` or `row`.
         what: &'static str,
-        /// The name asked for.
+        /// Name that was asked for.
         name: String,
-        /// The name that was probably meant, and all that exist.
+        /// Name that was probably meant, and all names that exist.
         choices: String,
     },
     /// Input of the experiment cannot be read.
     #[error("experiment {name} cannot be prepared")]
     Open {
-        /// The experiment.
+        /// Name of the experiment.
         name: String,
-        /// The underlying error.
+        /// Reason why the input cannot be read.
         source: BoxError,
     },
     /// A number of runs or jobs is zero.
@@ -52,7 +52,7 @@ pub enum Error {
     TooManyRuns {
         /// Number of runs asked for.
         runs: u32,
-        /// Maximum number.
+        /// Maximum number of runs.
         most: u32,
     },
     /// The master seed is too large for TOML's integers.
@@ -64,7 +64,7 @@ pub enum Error {
     /// The experiment's tables are inconsistent.
     #[error("the tables of experiment {name} are invalid: {what}")]
     Tables {
-        /// The experiment.
+        /// Name of the experiment.
         name: String,
         /// The fault, in words.
         what: String,
@@ -78,7 +78,7 @@ pub enum Error {
     ForeignFolder {
         /// Path of the folder.
         folder: PathBuf,
-        /// Value found there.
+        /// Contents found there, in words.
         what: String,
     },
     /// Another process is using the folder of results.
@@ -99,23 +99,23 @@ pub enum Error {
         path: PathBuf,
         /// Advice on the repair.
         repair: &'static str,
-        /// The system's error.
+        /// Error of the operating system.
         source: io::Error,
     },
     /// The configuration cannot be written as TOML.
     #[error("the configuration of experiment {name} cannot be written as TOML")]
     Config {
-        /// The experiment.
+        /// Name of the experiment.
         name: String,
-        /// The underlying error.
+        /// Error of the TOML writer.
         source: toml::ser::Error,
     },
     /// The summary cannot be written as JSON.
     #[error("the summary of experiment {name} cannot be written as JSON")]
     Summary {
-        /// The experiment.
+        /// Name of the experiment.
         name: String,
-        /// The underlying error.
+        /// Error of the JSON writer.
         source: serde_json::Error,
     },
     /// The threads cannot be started.
@@ -123,7 +123,7 @@ pub enum Error {
     Threads {
         /// Number of threads asked for.
         jobs: u32,
-        /// The underlying error.
+        /// Reason why the threads cannot be started.
         source: BoxError,
     },
     /// A run could not be played.
@@ -133,11 +133,11 @@ pub enum Error {
         table: String,
         /// Name of the row.
         row: String,
-        /// The index of the run.
+        /// Index of the run, from 0.
         run: u32,
         /// Seed of the run.
         seed: u64,
-        /// The underlying error.
+        /// Reason why the run could not be played.
         source: BoxError,
     },
     /// The runs of a table cannot be replayed.
@@ -151,7 +151,7 @@ pub enum Error {
     /// A file of runs has an invalid line.
     #[error("{}, line {line}: {what}; compare folders that `tolman experiment` wrote", path.display())]
     NoRuns {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
         /// Number of the line, from 1.
         line: u64,
@@ -168,7 +168,7 @@ pub enum Error {
         /// Path of the folder.
         folder: PathBuf,
     },
-    /// A chunk, or a folder already there, belongs to something else.
+    /// A chunk, or the folder of results, belongs to another experiment, configuration or build.
     #[error(
         "{} holds results of {reason}; remove it, or merge with the program that made it and the \
          mazes as they were",
@@ -199,15 +199,15 @@ pub enum Error {
         missing: usize,
         /// Number of runs of the whole experiment.
         total: usize,
-        /// The chunks that have them, as I/K.
+        /// Chunks that the missing runs belong to, as I/K.
         chunks: String,
     },
     /// The figures could not be drawn.
     #[error("the figures of experiment {name} could not be drawn")]
     Figures {
-        /// The experiment.
+        /// Name of the experiment.
         name: String,
-        /// The underlying error.
+        /// Reason why a figure could not be drawn.
         source: BoxError,
     },
     /// The caller asked the experiment to stop.
@@ -221,9 +221,9 @@ pub enum Error {
         done: u64,
         /// Number of runs of the whole experiment.
         total: u64,
-        /// The folder of results.
+        /// Path of the folder of results.
         folder: PathBuf,
-        /// Command that continues.
+        /// Command that continues the experiment.
         command: String,
     },
 }

@@ -61,7 +61,7 @@ pub struct Options {
     /// Number of time steps after which a run has failed, where runs have such a limit; `None` for
     /// the experiment's own. If it differs from the paper's, the paper's values are left out.
     pub limit: Option<u32>,
-    /// The folder of results; `None` is `results/NAME` under the current folder.
+    /// Folder of results; `None` for `results/NAME` in the current folder.
     pub out: Option<PathBuf>,
     /// Names of the tables to fill; empty for all.
     pub tables: Vec<String>,
@@ -90,8 +90,8 @@ impl Options {
         })
     }
 
-    /// Returns the number of runs of a row that differs from the experiment's: the caller's, or
-    /// else `full` or `quick`.
+    /// Returns the number of runs for a row whose number differs from the experiment's: the
+    /// caller's, or else `full` or `quick`.
     pub fn runs_else(&self, full: u32, quick: u32) -> u32 {
         self.runs.unwrap_or(if self.quick { quick } else { full })
     }

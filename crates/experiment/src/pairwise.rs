@@ -8,7 +8,7 @@ use super::{Contrast, Correction, Doubt, Run, Statistic, Table, Verdict};
 pub struct Pairwise {
     /// Numeric field that is compared.
     pub field: String,
-    /// Rows; each two of them are a pair.
+    /// Names of the rows. Every two of them are a pair.
     pub rows: Vec<String>,
     /// Correction of p-values for the number of pairs.
     pub correction: Correction,
@@ -19,16 +19,16 @@ pub struct Pairwise {
 /// Comparison of two rows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowPair {
-    /// Row that comes first in the table.
+    /// Name of the row that comes first in the table.
     pub first: String,
-    /// The other row.
+    /// Name of the other row.
     pub second: String,
     /// Number of runs of both rows together.
     pub n: u64,
     /// Difference of the first row from the second; its p-value is corrected for the number of
     /// pairs.
     pub contrast: Contrast,
-    /// The paper's p-value.
+    /// p-value that the paper gives.
     pub paper: Option<f64>,
     /// Verdict on the paper's p-value, which is never judged; `None` if the paper has none.
     pub verdict: Option<Verdict>,

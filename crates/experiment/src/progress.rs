@@ -9,9 +9,9 @@ use std::path::Path;
 pub enum ProgressEvent<'a> {
     /// The folder held results of another configuration, which were moved.
     SetAside {
-        /// The folder of results.
+        /// Path of the folder of results.
         folder: &'a Path,
-        /// Folder that its contents were moved to.
+        /// Path of the folder that its contents were moved to.
         moved_to: &'a Path,
         /// The difference, in words.
         reason: &'a str,
@@ -45,7 +45,7 @@ pub enum ProgressEvent<'a> {
     RunsFinished {
         /// Number of runs that were played now.
         played: u64,
-        /// Duration.
+        /// Time that the runs took.
         elapsed: Duration,
     },
     /// The first runs of each row are played again, to record replays for the report.

@@ -94,7 +94,7 @@ macro_rules! record {
         #[derive(Clone, Debug, Default, PartialEq, ::serde::Serialize, ::serde::Deserialize)]
         $vis struct $name {
             $(
-                /// The fields that it has in common with others.
+                /// Fields that the struct has in common with others.
                 #[serde(flatten)]
                 $vis $base: $base_type,
             )?
@@ -147,9 +147,9 @@ pub enum FieldsError {
     /// Serde cannot write the record as fields.
     #[error("the record {record} cannot be written as fields")]
     Write {
-        /// Name of the type.
+        /// Name of the record's type.
         record: &'static str,
-        /// Serde's error.
+        /// Error of serde.
         source: toml::ser::Error,
     },
     /// A value cannot be a field.
@@ -163,9 +163,9 @@ pub enum FieldsError {
     /// The fields are not those of the record.
     #[error("the fields do not match record {record}")]
     Read {
-        /// Name of the type.
+        /// Name of the record's type.
         record: &'static str,
-        /// Serde's error.
+        /// Error of serde.
         source: toml::de::Error,
     },
 }
@@ -224,7 +224,7 @@ mod tests {
     record! {
         /// Where a dart hit.
         struct Hit {
-            /// Distance from the middle.
+            /// Distance of the hit from the middle.
             miss: f64 => lower("miss").unit("cm").at_least(0),
         }
     }
@@ -234,10 +234,9 @@ mod tests {
         #[check(Throw::is_possible)]
         struct Throw {
             ..hit: Hit,
-            /// Number of throws before,
-            /// of the same player.
+            /// Number of earlier throws of the same player.
             before: u32 => neither("throws before"),
-            /// Whether it counts.
+            /// Whether the throw counts.
             counts: bool => higher("counted"),
             /// Message of the player.
             said: Option<String> => neither("words"),

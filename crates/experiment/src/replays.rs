@@ -32,7 +32,7 @@ pub struct Replays {
     pub of_each_row: u32,
     /// Replays by run, then in the order of tables and rows.
     pub recorded: Vec<Recorded>,
-    /// The names of the tables whose runs can be recorded.
+    /// Names of the tables whose runs can be recorded.
     pub tables: BTreeSet<String>,
     /// Maximum size of all replays together, bytes.
     pub budget: usize,
@@ -41,18 +41,18 @@ pub struct Replays {
 /// The replay of one run.
 #[derive(Clone, Debug)]
 pub struct Recorded {
-    /// The name of the table.
+    /// Name of the table.
     pub table: String,
-    /// The name of the row.
+    /// Name of the row.
     pub row: String,
-    /// The index of the run.
+    /// Index of the run, from 0.
     pub run: u32,
     /// Input of the player, suitable for a `script` element.
     pub json: String,
 }
 
 impl Recorded {
-    /// Returns an upper bound of its size on a page, bytes.
+    /// Returns an upper bound of the replay's size on a page, bytes.
     const fn bytes(&self) -> usize {
         self.json.len() + TAG
     }
@@ -149,7 +149,7 @@ fn record_shown(
 }
 
 impl Replays {
-    /// Adds those that fit, one by one, if others already take `bytes`.
+    /// Adds the recorded runs that fit, one by one, if others already take `bytes`.
     fn carry(&mut self, recorded: impl Iterator<Item = Recorded>, mut bytes: usize) {
         for one in recorded {
             self.tables.insert(one.table.clone());

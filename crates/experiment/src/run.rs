@@ -10,26 +10,26 @@ use super::{FieldsError, Kind, Record, run_seed};
 /// A run to be played.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Job<'a> {
-    /// The name of the table.
+    /// Name of the table.
     pub table: &'a str,
-    /// The name of the row.
+    /// Name of the row.
     pub row: &'a str,
-    /// The index of the run in its row, from 0.
+    /// Index of the run in its row, from 0.
     pub run: u32,
-    /// The seed of the run, the same for all rows of the table; see [`run_seed`](super::run_seed).
+    /// Seed of the run, the same for all rows of the table; see [`run_seed`](super::run_seed).
     pub seed: u64,
 }
 
 /// A run that was played: a line of `runs.jsonl`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Run {
-    /// The name of the table.
+    /// Name of the table.
     pub table: String,
-    /// The name of the row.
+    /// Name of the row.
     pub row: String,
-    /// The index of the run in its row, from 0.
+    /// Index of the run in its row, from 0.
     pub run: u32,
-    /// The seed of the run.
+    /// Seed of the run.
     pub seed: u64,
     /// Measurements of the run.
     #[serde(flatten)]

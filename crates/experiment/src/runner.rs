@@ -22,13 +22,13 @@ use tolman_draw::Figure;
 pub struct ExperimentOutcome {
     /// Entry in the catalogue.
     pub entry: Entry,
-    /// Parts left out because data is missing.
+    /// Parts left out because data is missing; `None` if nothing is.
     pub skipped: Option<String>,
     /// Folder of the results.
     pub folder: PathBuf,
     /// Command that repeats the results.
     pub command: String,
-    /// The master seed.
+    /// Master seed of the experiment.
     pub seed: u64,
     /// Number of runs of each row without a fixed number.
     pub runs_per_row: u32,
@@ -38,17 +38,17 @@ pub struct ExperimentOutcome {
     pub played: u64,
     /// Duration of the runs that were played now.
     pub elapsed: Duration,
-    /// The program that played them.
+    /// Program that played the runs.
     pub build: Build,
-    /// Every run, sorted by table, row and index.
+    /// All runs, sorted by table, row and index.
     pub runs: Vec<Run>,
     /// Analysis of the runs.
     pub analysis: Analysis,
     /// Contents of `summary.json`.
     pub summary: Summary,
-    /// The pictures.
+    /// Figures: the box plots, and those of the procedure.
     pub figures: Vec<Figure>,
-    /// The replays that the report carries.
+    /// Replays that the report carries.
     pub replays: Replays,
 }
 
@@ -117,7 +117,7 @@ struct Played {
     path: PathBuf,
     folder: Folder,
     config: ConfigFile,
-    /// Every run, sorted by table, row and index.
+    /// All runs, sorted by table, row and index.
     runs: Vec<Run>,
     /// Number of runs played now.
     count: u64,
@@ -299,7 +299,7 @@ fn play(
                 Ok((*key, run))
             }))
         })
-        // The first error ends the others.
+        // The first error ends the other runs.
         .collect()
 }
 

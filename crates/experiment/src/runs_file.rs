@@ -21,7 +21,7 @@ use super::{Error, Experiment, Progress, ProgressEvent, Remedy, Run, check, run_
 struct Line<R> {
     #[serde(flatten)]
     run: R,
-    /// `None` for files of versions without checksums.
+    /// Checksum of the line; `None` in files of versions without checksums.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     checksum: Option<String>,
 }

@@ -9,7 +9,7 @@ use tolman_stats::ConfidenceInterval;
 
 /// Number of resamples of the bootstrap.
 pub(crate) const RESAMPLES: u32 = 2000;
-/// The confidence of every interval.
+/// Confidence level of every interval.
 pub(crate) const LEVEL: f64 = 0.95;
 
 /// The measured values of one metric in one row. Never empty.

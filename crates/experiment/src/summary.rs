@@ -10,11 +10,11 @@ pub const P_TABLE: &str = "p";
 /// The contents of `summary.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
-    /// The experiment's name.
+    /// Name of the experiment.
     pub experiment: String,
-    /// The version of this format: 1.
+    /// Version of this format: 1.
     pub version: u32,
-    /// The master seed.
+    /// Master seed of the experiment.
     pub seed: u64,
     /// Values by table, row and metric, in the experiment's order.
     pub rows: Vec<SummaryRow>,
@@ -23,23 +23,24 @@ pub struct Summary {
 /// One value of `summary.json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SummaryRow {
-    /// The name of the table.
+    /// Name of the table.
     pub table: String,
-    /// The name of the row.
+    /// Name of the row.
     pub row: String,
-    /// The name of the metric.
+    /// Name of the metric.
     pub metric: String,
-    /// The value: the mean unless the metric says otherwise; `null` if it is not a number.
+    /// Value in the metric's unit: the mean unless the metric says otherwise; `null` if it is not a
+    /// number.
     pub value: f64,
     /// `false` if the metric waits for an event that did not happen: `value` is then a lower bound.
     /// Missing otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reached: Option<bool>,
-    /// The standard deviation, for means and medians of two runs or more.
+    /// Standard deviation, for means and medians of two runs or more.
     pub sd: Option<f64>,
     /// Number of runs measured.
     pub n: u64,
-    /// The paper's value.
+    /// Value that the paper gives.
     pub paper: Option<f64>,
     /// Verdict, if the paper has a value: `matches`, `better`, `differs` or `cannot tell`.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -6,9 +6,9 @@ use tolman_stats::PValue;
 /// One table of a paper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
-    /// The name it has in `summary.json`, such as `2 (J)`.
+    /// Name of the table in `summary.json`, such as `2 (J)`.
     pub name: String,
-    /// Title in words.
+    /// Title of the table, in words.
     pub title: String,
     /// Rows, in the order in which they are shown.
     pub rows: Vec<Row>,
@@ -199,7 +199,7 @@ pub enum Correction {
 }
 
 impl Correction {
-    /// Returns the author's name.
+    /// Returns the name of the correction's author.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Bonferroni => "Bonferroni",
@@ -224,7 +224,7 @@ impl Correction {
 /// One row of a table: one brain, one quantizer, one setting.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// The name it has in `summary.json`.
+    /// Name of the row in `summary.json`.
     pub name: String,
     /// Values from the paper, at most one for each metric.
     pub paper: Vec<PaperValue>,
@@ -366,30 +366,30 @@ impl Row {
 /// The paper's value of one metric in one row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaperValue {
-    /// The name of the metric.
+    /// Name of the metric.
     pub metric: String,
-    /// The value, in the metric's unit.
+    /// Value, in the metric's unit.
     pub value: f64,
-    /// The standard deviation; `None` if the paper gives none.
+    /// Standard deviation, in the metric's unit; `None` if the paper gives none.
     pub sd: Option<f64>,
-    /// Reason why ours is not compared with it; `None` if it is.
+    /// Reason why our value is not compared with it; `None` if it is compared.
     pub aside: Option<String>,
 }
 
 /// One measured quantity: how the runs of a row give one value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Metric {
-    /// The name it has in `summary.json`, such as `success_percent`.
+    /// Name of the metric in `summary.json`, such as `success_percent`.
     pub name: String,
-    /// Title on a page, such as `success`; empty to take the column's.
+    /// Title of the metric on a page, such as `success`; empty to take the column's.
     pub title: String,
-    /// Unit, shown after the title; empty if there is none.
+    /// Unit of its values, shown after the title; empty if there is none.
     pub unit: String,
     /// Statistic by which the runs are summarized.
     pub statistic: Statistic,
     /// Direction in which its values are better; `None` to take the column's.
     pub better: Option<Better>,
-    /// Definition, in a sentence.
+    /// Definition of the metric, in a sentence.
     pub definition: String,
     /// Number of decimals shown; `None` for the column's, or else two.
     pub decimals: Option<u8>,
@@ -617,7 +617,7 @@ pub enum Statistic {
     Median(String),
     /// A quantile of a numeric field, without interval.
     Quantile {
-        /// A numeric field.
+        /// Name of a numeric field.
         field: String,
         /// Share of the runs that are below, 0 … 1.
         share: f64,
@@ -630,37 +630,37 @@ pub enum Statistic {
     Total(String),
     /// `whole` × the share of runs whose flag is set.
     Count {
-        /// A field of [`Kind::Flag`](crate::Kind::Flag).
+        /// Name of a field of [`Kind::Flag`](crate::Kind::Flag).
         field: String,
         /// Number of runs that the paper made.
         whole: u32,
     },
-    /// The ratio of two sums.
+    /// The ratio of the sums of two numeric fields.
     Ratio {
-        /// The numeric field of the numerator.
+        /// Name of the numeric field of the numerator.
         over: String,
-        /// The numeric field of the denominator.
+        /// Name of the numeric field of the denominator.
         under: String,
     },
     /// The ratio of two standard deviations, without interval.
     RatioOfSpreads {
-        /// The numeric field of the numerator.
+        /// Name of the numeric field of the numerator.
         over: String,
-        /// The numeric field of the denominator.
+        /// Name of the numeric field of the denominator.
         under: String,
     },
     /// The ratio of a sum to that of another row, over the run indices that both have.
     Multiple {
-        /// A numeric field.
+        /// Name of a numeric field.
         field: String,
-        /// The name of the other row.
+        /// Name of the other row.
         of: String,
     },
     /// Skill of forecasts over the base rate, without interval; see [`Metric::skill`].
     Skill {
-        /// The numeric field of the squared errors.
+        /// Name of the numeric field of the squared errors.
         error: String,
-        /// The flag that was forecast.
+        /// Name of the flag that was forecast.
         outcome: String,
     },
     /// Time at which the mean of curves settles; see [`Settling`].
@@ -668,7 +668,7 @@ pub enum Statistic {
 }
 
 impl Statistic {
-    /// Returns its fields, each with the types that it may have.
+    /// Returns the fields that the statistic reads, each with the types that it may have.
     pub(super) fn fields(&self) -> Vec<(&str, &'static [Kind])> {
         const FLAG: &[Kind] = &[Kind::Flag];
         const NUMERIC: &[Kind] = &[Kind::Count, Kind::Number];
@@ -694,7 +694,7 @@ impl Statistic {
         }
     }
 
-    /// Returns the other row whose runs it needs, if any.
+    /// Returns the name of the other row whose runs the statistic needs, or `None`.
     pub(super) fn other_row(&self) -> Option<&String> {
         match self {
             Self::Multiple { of, .. } | Self::Settling(Settling { of, .. }) => Some(of),
@@ -707,7 +707,7 @@ impl Statistic {
 /// tables.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
-    /// Maximum difference.
+    /// Maximum difference between our value and the paper's.
     pub within: Within,
     /// Reason for its size, a sentence without full stop.
     pub reason: &'static str,

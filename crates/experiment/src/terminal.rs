@@ -73,7 +73,7 @@ impl Progress for Terminal {
                     self.line(&format!("{reused} of {total} runs are there from before"));
                 }
                 let bar = ProgressBar::with_draw_target(Some(*total), target()).with_style(style());
-                // Reused runs are done, but do not count for the rate.
+                // Reused runs count as done, but not for the rate.
                 bar.set_position(*reused);
                 bar.reset_eta();
                 bar.reset_elapsed();

@@ -186,12 +186,12 @@ fn block_as_text(
 /// The columns of one metric.
 struct Column<'a> {
     metric: &'a MetricAnalysis,
-    /// The metric's title in lines.
+    /// Title of the metric, line by line.
     heading: Vec<String>,
-    /// Width of the paper's values; `None` if there are none.
+    /// Width of the paper's values, columns; `None` if there are none.
     paper: Option<usize>,
     ours: usize,
-    /// Width of the verdicts; 0 if there are none.
+    /// Width of the verdicts, columns; 0 if there are none.
     verdict: usize,
 }
 
@@ -223,8 +223,8 @@ impl<'a> Column<'a> {
         self.paper.map_or(0, |paper| paper + 2) + self.ours + apart(self.verdict)
     }
 
-    /// Returns a line of it, with the gap before it. `verdict` gives the width, `painted` the
-    /// coloured text of the verdict.
+    /// Returns a line of the metric's columns, with the gap before it. `verdict` gives the width,
+    /// `painted` the coloured text of the verdict.
     fn line(&self, paper: &str, ours: &str, verdict: &str, painted: &str) -> String {
         let paper = match self.paper {
             Some(width) => format!("{paper:>width$}  "),

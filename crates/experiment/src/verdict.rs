@@ -294,7 +294,7 @@ mod tests {
     record! {
         /// One throw.
         struct Throw {
-            /// Whether it hit.
+            /// Whether the throw hit.
             hit: bool => higher("hits"),
             /// Number of steps to the line.
             steps: u32 => lower("steps"),

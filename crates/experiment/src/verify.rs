@@ -27,7 +27,7 @@ pub struct Verification {
     pub runs: usize,
     /// Number of runs that were played again.
     pub played: usize,
-    /// Faults, one each; empty if there are none.
+    /// Faults of the folder, one per entry; empty if there are none.
     pub faults: Vec<String>,
 }
 

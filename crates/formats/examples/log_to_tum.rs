@@ -1,4 +1,4 @@
-//! A robot's log becomes a trajectory of TUM, and what was wrong with it is told.
+//! Converts a robot's log into a TUM trajectory and reports the faults of the log.
 #![expect(clippy::print_stdout, reason = "the trajectory is its result")]
 
 use tolman_formats::{LogEntry, LogReader, tum};

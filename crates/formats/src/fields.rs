@@ -4,7 +4,7 @@ use tolman_geom::{Heading, Point, Pose};
 
 use crate::log::LogTrouble;
 
-/// Fault of a line.
+/// Fault of a line: its kind, and its description.
 pub(crate) type Wrong = (LogTrouble, String);
 
 /// The fields of a line, taken one by one.
@@ -41,7 +41,7 @@ impl<'a> Fields<'a> {
     /// Returns the next three fields as a pose.
     pub(crate) fn pose(&mut self, name: &str) -> Result<Pose, Wrong> {
         let [x, y, heading] = [self.number(name)?, self.number(name)?, self.number(name)?];
-        // Farther away, numbers no longer resolve metres or turns.
+        // With larger numbers, `f64` no longer resolves small distances and turns.
         if [x, y, heading].iter().any(|part| part.abs() > FARTHEST) {
             return Err((
                 LogTrouble::NoNumber,
@@ -63,12 +63,12 @@ impl<'a> Fields<'a> {
         Ok(ranges)
     }
 
-    /// Passes over `count` fields.
+    /// Skips `count` fields.
     pub(crate) fn pass(&mut self, count: u32, name: &str) -> Result<(), Wrong> {
         (0..count).try_for_each(|_| self.word(name).map(|_| ()))
     }
 
-    /// Returns the fields that are left.
+    /// Returns the number of fields that are left.
     pub(crate) fn left(&self) -> usize {
         self.words.clone().count()
     }

@@ -49,28 +49,28 @@ pub struct G2o {
     pub left_out: Vec<G2oFault>,
 }
 
-/// One `VERTEX_SE2`.
+/// One `VERTEX_SE2` line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct G2oPose {
-    /// Its number in the file.
+    /// Id of the pose in the file.
     pub id: u64,
-    /// Pose in the file.
+    /// Pose as the file gives it.
     pub pose: Pose,
 }
 
-/// One `EDGE_SE2`.
+/// One `EDGE_SE2` line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct G2oEdge {
-    /// The id of the pose from which it was measured.
+    /// Id of the pose from which the other was measured.
     pub from: u64,
-    /// The id of the pose that was measured.
+    /// Id of the pose that was measured.
     pub to: u64,
     /// Pose of `to` relative to `from`.
     pub measured: Pose,
-    /// The inverse of the measurement's covariance: x, y, m, and the heading, rad; symmetric and
+    /// Inverse of the measurement's covariance, for x (m), y (m) and heading (rad); symmetric and
     /// positive definite.
     pub information: Matrix3<f64>,
-    /// The line of the file, from 1; 0 of an edge that was in none.
+    /// Number of the edge's line in the file, from 1; 0 for an edge that is from no file.
     pub line: usize,
 }
 
@@ -84,13 +84,13 @@ pub enum G2oError {
         /// First item that was left out; `None` if all were used.
         first: Option<Box<str>>,
     },
-    /// The file is compressed, and no beginning of it can be unpacked.
+    /// The file is compressed, and not even its beginning can be unpacked.
     #[error("the gzip file cannot be unpacked: {why}; pack it again, or give it plain")]
     Gzip {
         /// Error of the unpacker.
         why: String,
     },
-    /// The compressed file holds more than this program takes.
+    /// The text of the compressed file is longer than the program accepts.
     #[error("the gzip file holds more than {} MB of text; give it in parts", MOST_TEXT >> 20)]
     TooLarge,
 }
@@ -142,7 +142,7 @@ impl G2o {
         let mut reading = Reading::default();
         let mut lines = (1..).zip(text.lines()).peekable();
         while let Some((number, line)) = lines.next() {
-            // The last line of a file that was cut may be a number short of another one.
+            // The last number of a truncated file may have lost digits.
             if is_cut && lines.peek().is_none() {
                 reading.leave_out(number, G2oFaultKind::Cut);
             } else {

@@ -1,8 +1,8 @@
 //! Maps of places as graphs, in formats that other programs read. All are written from a
 //! [`MapView`](tolman_robot::MapView).
 //!
-//! A way that can be driven both ways is in a `MapView` twice, and so it is in the files: all
-//! graphs are directed.
+//! All graphs are directed: a way that can be driven in both directions is in the file twice, as it
+//! is in the `MapView`.
 
 mod dot;
 mod geojson;

@@ -10,15 +10,15 @@ use std::path::Path;
 
 use thiserror::Error;
 
-/// Maximum number of bytes read of one file, 256 MiB. It is far above any map, world or trace, and
-/// low enough for the memory of any machine that runs this.
+/// Maximum number of bytes read of one file, 256 MiB. Maps, worlds and traces are far smaller, and
+/// the memory of any machine is larger.
 pub const MOST_BYTES: u64 = 256 << 20;
 
 /// Reason why a file cannot be read whole. It does not name the file; the caller adds that.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SourceError {
-    /// The system cannot read it.
+    /// The operating system cannot read the file.
     #[error(transparent)]
     System(#[from] io::Error),
     /// The file is too large.
@@ -30,18 +30,18 @@ pub enum SourceError {
     /// The file has a byte order mark.
     #[error("it begins with a byte order mark of {encoding}; save it as UTF-8 text without one")]
     ByteOrderMark {
-        /// `UTF-8` or `UTF-16`.
+        /// Encoding of the mark: `UTF-8` or `UTF-16`.
         encoding: &'static str,
     },
-    /// The file is packed by gzip.
+    /// The file is compressed by gzip.
     #[error("it is packed by gzip; unpack it with `gunzip`")]
     Packed,
     /// The file is not UTF-8 text.
     #[error("line {line}: byte {byte} of the file is not UTF-8; save it as UTF-8 text")]
     NoText {
-        /// The line, from 1.
+        /// Number of the line, from 1.
         line: usize,
-        /// The byte of the file, from 0.
+        /// Offset of the faulty byte in the file, from 0.
         byte: usize,
     },
 }

@@ -4,10 +4,10 @@
 //! grid's scale and place, and a PGM picture beside it. [`RosMapHeader`] and [`GreyMap`] are the
 //! two files by themselves. [`G2o`] is a pose graph in the plane, read and written.
 //!
-//! [`LogReader`] reads logs of robots; what cannot be used of them stands in a [`LogReport`].
-//! [`ReadTrajectory`] and [`tum`] are ways in time, [`ReadRelations`] what is known of them.
-//! [`UtiasRobot`], [`TucDrive`] and [`SonarTable`] are published data sets. [`dot`], [`graphml`],
-//! [`node_link_json`] and [`route_geojson`] write maps of places.
+//! [`LogReader`] reads logs of robots; a [`LogReport`] lists the parts of a log that cannot be
+//! used. [`ReadTrajectory`] and [`tum`] read and write trajectories, and [`ReadRelations`] reads
+//! relative poses. [`UtiasRobot`], [`TucDrive`] and [`SonarTable`] are published data sets.
+//! [`dot`], [`graphml`], [`node_link_json`] and [`route_geojson`] write maps of places.
 //!
 //! ```
 //! use tolman_formats::{GreyMap, MapCell, RosMap, RosMapHeader};

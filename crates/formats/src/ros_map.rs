@@ -24,7 +24,7 @@ pub struct RosMap {
     pub height: usize,
     /// Size of a cell, m.
     pub resolution: f64,
-    /// The south-west corner of the grid, m.
+    /// Position of the south-west corner of the grid, m.
     pub origin: Point,
     /// State of each cell, row by row from the south-west.
     pub cells: Vec<MapCell>,
@@ -33,9 +33,9 @@ pub struct RosMap {
 /// State of a cell of an occupancy grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapCell {
-    /// Floor.
+    /// The cell is floor.
     Free,
-    /// A wall, or a thing.
+    /// The cell holds a wall or another obstacle.
     Occupied,
     /// The cell is unknown.
     Unknown,
@@ -45,12 +45,12 @@ pub enum MapCell {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RosMapError {
-    /// One of its two files cannot be read.
+    /// The YAML file or the picture cannot be read.
     #[error("cannot read {}; give a .yaml of map_server with its picture beside it", path.display())]
     File {
         /// Path of the file.
         path: PathBuf,
-        /// Reason.
+        /// Reason why the file cannot be read.
         source: SourceError,
     },
     /// The YAML file is not UTF-8 text.
@@ -58,7 +58,7 @@ pub enum RosMapError {
     Text {
         /// Path of the file.
         path: PathBuf,
-        /// The first byte at fault, from 0.
+        /// Offset of the first byte that is not UTF-8, from 0.
         byte: usize,
     },
     /// The YAML file is not that of a map.
@@ -69,7 +69,7 @@ pub enum RosMapError {
         /// Fault of the file, with its place.
         source: RosMapHeaderError,
     },
-    /// The picture is not one.
+    /// The picture is not a grey PGM.
     #[error("{}", path.display())]
     Picture {
         /// Path of the file.

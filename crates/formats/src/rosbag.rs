@@ -40,7 +40,7 @@ const TRANSFORMS: &str = "tf2_msgs/msg/TFMessage";
 pub struct RosBag {
     /// Scans and odometry. A scan before the first odometry or after the last is left out.
     pub entries: Vec<LogEntry>,
-    /// Report on reading it.
+    /// Report on reading the bag.
     pub report: LogReport,
 }
 
@@ -54,21 +54,21 @@ struct PlacelessScan {
 #[derive(Default)]
 struct Reader {
     report: LogReport,
-    /// Type of messages, by id.
+    /// Type of the messages of each schema, by the schema's id.
     schemas: BTreeMap<u16, String>,
-    /// Topic and type of messages, by id.
+    /// Topic and type of the messages of each channel, by the channel's id.
     channels: BTreeMap<u16, [String; 2]>,
     scans: Vec<PlacelessScan>,
     odometry: Vec<LogOdometry>,
-    /// The topics of the scans and of the odometry, once one was met.
+    /// Topics of the scans and of the odometry; `None` before the first message of the kind.
     topics: [Option<String>; 2],
     /// Frame whose pose the odometry gives.
     base: String,
     mounts: Mounts,
 }
 
-/// The fields of a record that are not read yet. (`mcap::parse_record` sets aside as many bytes as
-/// a text says that it has, up to 4 GiB, before it looks whether they are there.)
+/// Fields of a record that are still to be read. `mcap::parse_record` is not used: it allocates the
+/// length that a text claims, up to 4 GiB, before it checks it.
 struct Fields<'a>(&'a [u8]);
 
 impl<'a> Fields<'a> {
@@ -280,7 +280,7 @@ impl Reader {
         })
     }
 }
-/// Returns whether a topic is the one that is read of its kind: the first that was met.
+/// Returns whether a topic is the first of its kind. Only that topic is read.
 fn is_first(first: &mut Option<String>, topic: &str) -> bool {
     first.get_or_insert_with(|| topic.to_owned()) == topic
 }

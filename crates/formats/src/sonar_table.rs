@@ -12,9 +12,9 @@ use crate::log::{self, LogError, LogReport, LogTrouble};
 /// Scans of a ring of sonars.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SonarTable {
-    /// The scans, all of as many ranges, m.
+    /// Ranges of each scan, m; all scans have equally many.
     pub scans: Vec<Vec<f64>>,
-    /// Action of the robot at each.
+    /// Word for the robot's action at each scan.
     pub actions: Vec<String>,
     /// Report on reading the file.
     pub report: LogReport,

@@ -1,4 +1,4 @@
-//! Reads and writes trajectories and relations, in the form of programs that judge them.
+//! Reads and writes trajectories and relations, in the formats of evaluation programs.
 
 mod relations;
 mod tum;

@@ -23,9 +23,9 @@ use crate::log::{self, LogError, LogReport, LogTrouble, LogVelocity};
 pub struct TucDrive {
     /// Speeds of the robot.
     pub odometry: Vec<LogVelocity>,
-    /// Places that look alike, true and false ones.
+    /// Pairs of places that look alike, true and false ones.
     pub matches: Vec<PlaceMatch>,
-    /// Report on reading it.
+    /// Report on reading the file.
     pub report: LogReport,
 }
 
@@ -101,7 +101,7 @@ fn point(fields: &mut Fields<'_>) -> Result<Option<TimedPose>, Wrong> {
             let pose = Pose::new(position, Heading::EAST);
             Ok(Some(TimedPose { time, pose }))
         }
-        // Of a gyroscope's truth nothing is asked.
+        // The true readings of the gyroscope are not used.
         "angle" => Ok(None),
         kind => Err(unknown(kind)),
     }

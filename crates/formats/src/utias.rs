@@ -22,7 +22,7 @@ use crate::log::{self, LogError, LogReport, LogVelocity};
 /// One robot of the data set.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct UtiasRobot {
-    /// Speeds by its wheels.
+    /// Speeds of the robot by its wheels.
     pub odometry: Vec<LogVelocity>,
     /// Barcodes that its camera recognized.
     pub sightings: Vec<BarcodeSighting>,
@@ -37,17 +37,17 @@ pub struct UtiasRobot {
 /// A barcode that a robot's camera has read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BarcodeSighting {
-    /// Time, s.
+    /// Time of the sighting, s.
     pub time: f64,
     /// Number of the robot or landmark that wears it.
     pub subject: u32,
-    /// Its distance, m.
+    /// Distance of the subject, m.
     pub range: f64,
-    /// Its bearing, rad, to the left of straight ahead.
+    /// Bearing of the subject, rad, counter-clockwise from straight ahead.
     pub bearing: f64,
 }
 
-/// Subjects up to here are robots.
+/// Largest number of a robot; subjects with larger numbers are landmarks.
 const ROBOTS: u32 = 5;
 
 impl BarcodeSighting {
@@ -102,7 +102,7 @@ impl UtiasRobot {
     }
 }
 
-/// Returns a barcode, and the subject that wears it.
+/// Returns a barcode and the number of the subject that wears it.
 fn barcode(fields: &mut Fields<'_>) -> Result<(u32, u32), Wrong> {
     let subject = fields.count("the subject")?;
     Ok((fields.count("the barcode")?, subject))
@@ -117,7 +117,7 @@ fn velocity(fields: &mut Fields<'_>) -> Result<LogVelocity, Wrong> {
     })
 }
 
-/// Returns a sighting whose subject is still the barcode.
+/// Returns a sighting whose `subject` still holds the barcode.
 fn sighting(fields: &mut Fields<'_>) -> Result<BarcodeSighting, Wrong> {
     Ok(BarcodeSighting {
         time: fields.number("the time")?,

@@ -14,9 +14,9 @@ use crate::carmen::{Parameters, mount};
 use crate::fields::{Fields, Wrong};
 use crate::log::{LogOdometry, LogScan, ReadScan};
 
-/// The beams of a scan.
+/// Number of beams of a scan.
 const BEAMS: u32 = 180;
-/// The length of a centimetre, m.
+/// Length of a centimetre, m.
 const CENTIMETRE: f64 = 0.01;
 
 pub(crate) fn odometry(line: u64, fields: &mut Fields<'_>) -> Result<LogOdometry, Wrong> {

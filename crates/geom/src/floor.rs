@@ -1,7 +1,7 @@
 /// Returns the greatest whole number that is not above `value`, as `libm::floor(value) as i32`
 /// does: the nearest `i32` beyond their range, 0 for NaN.
 ///
-/// It is what tells the cell of a grid, so it needs no call.
+/// Grids compute the cell of a point with it, so it avoids the call into libm.
 ///
 /// ```
 /// use tolman_geom::floor_index;

@@ -6,7 +6,7 @@ use crate::Vector;
 ///
 /// Arithmetic wraps: `b.turn_to(a)` is the signed smallest turn that takes `b` to `a`.
 ///
-/// A heading built from NaN or an infinity is NaN; [`Heading::is_finite`] tells.
+/// A heading built from NaN or an infinity is NaN. Check with [`Heading::is_finite`].
 ///
 /// ```
 /// use tolman_geom::Heading;
@@ -141,7 +141,7 @@ impl Heading {
         self.turned(PI)
     }
 
-    /// Returns whether the heading is a number at all.
+    /// Returns whether the heading is a finite angle, not one made from NaN or an infinity.
     #[must_use]
     pub const fn is_finite(self) -> bool {
         self.0.is_finite()

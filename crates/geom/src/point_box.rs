@@ -39,7 +39,7 @@ impl PointBox {
         Self { x, y }
     }
 
-    /// Returns one position.
+    /// Returns the box that holds only `point`.
     ///
     /// # Errors
     /// If it is not finite.
@@ -47,7 +47,7 @@ impl PointBox {
         Ok(Self::new(Interval::of(point.x)?, Interval::of(point.y)?))
     }
 
-    /// Returns the square of all positions within `margin` of `middle` along each axis.
+    /// Returns the box of all positions within `margin` of `middle` along each axis.
     ///
     /// # Errors
     /// If `margin` is negative or something is not a number.
@@ -128,13 +128,13 @@ impl PointBox {
         (self - other).norm()
     }
 
-    /// Returns all places of a position turned about the origin by any of `angles`, rad: the least
-    /// box up to rounding.
+    /// Returns the box of the positions turned about the origin by any of `angles`, rad. It is the
+    /// smallest such box up to rounding.
     ///
     /// For a given angle the turned position depends linearly on the position, so it is extreme in
-    /// a corner. Along the angles a corner follows a circle about the origin, whose extremes lie at
-    /// the ends or where it crosses an axis. (Cosine and sine each as an interval of its own would
-    /// be sound, but wider.)
+    /// a corner. As the angle grows, a corner follows a circle about the origin, whose extremes lie
+    /// at the ends or where it crosses an axis. (Cosine and sine each as an interval of its own
+    /// would be sound, but wider.)
     #[must_use]
     pub fn rotated(self, angles: Interval) -> Self {
         /// Nearly a full circle, on which all extremes lie.

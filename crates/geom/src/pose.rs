@@ -99,7 +99,7 @@ impl Pose {
         )
     }
 
-    /// Returns whether every number of the pose is one.
+    /// Returns whether position and heading are finite.
     #[must_use]
     pub fn is_finite(self) -> bool {
         self.position.x.is_finite() && self.position.y.is_finite() && self.heading.is_finite()

@@ -49,7 +49,7 @@ impl PoseBox {
         Self { position, heading }
     }
 
-    /// Returns one pose.
+    /// Returns the box that holds only `pose`.
     ///
     /// # Errors
     /// If it is not finite.
@@ -92,7 +92,8 @@ impl PoseBox {
         )
     }
 
-    /// Returns positions of this pose's own frame in the frame in which the pose is given.
+    /// Returns the box of `position`, given in this pose's own frame, in the frame in which the
+    /// pose is given.
     #[must_use]
     pub fn transform(self, position: PointBox) -> PointBox {
         self.position + position.rotated(self.heading)

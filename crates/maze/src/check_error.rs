@@ -7,15 +7,15 @@ pub enum CheckError {
     /// The grid has no cell at all.
     #[error("the maze has no cells: give it at least one column and one row")]
     NoCells,
-    /// One could walk out of the maze.
+    /// The border has an opening, through which a robot could leave the maze.
     #[error("the border of cell {cell} is open to the {direction}: close it with a wall")]
     OpenBorder {
-        /// The cell at the border.
+        /// Cell at the border.
         cell: Cell,
-        /// The side that must be closed.
+        /// Side of the cell that must be closed.
         direction: Direction,
     },
-    /// There is nowhere to go.
+    /// No cell is marked as the goal.
     #[error("the maze has no goal: mark at least one cell as the destination")]
     NoGoal,
     /// The start is not a cell of the maze.
@@ -26,7 +26,7 @@ pub enum CheckError {
     StartOutside {
         /// Start that was given.
         start: Cell,
-        /// The size of the maze.
+        /// Size of the maze.
         grid: Grid,
     },
     /// A goal is not a cell of the maze.
@@ -35,23 +35,23 @@ pub enum CheckError {
         grid.width().saturating_sub(1), grid.height().saturating_sub(1)
     )]
     GoalOutside {
-        /// The goal as given.
+        /// Goal that was given.
         goal: Cell,
-        /// The size of the maze.
+        /// Size of the maze.
         grid: Grid,
     },
-    /// Walls part the start from every goal.
+    /// Walls separate the start from every goal.
     #[error("no way leads from the start {start} to the goal {goal}: open a wall between them")]
     NoWay {
         /// Start of the runs.
         start: Cell,
-        /// The first of the goals.
+        /// First of the goals.
         goal: Cell,
     },
     /// The maze has no start, and all four walls of every goal stand.
     #[error("the goal {goal} is walled in on all four sides: open one of its walls")]
     Enclosed {
-        /// The first of the goals.
+        /// First of the goals.
         goal: Cell,
     },
 }

@@ -168,7 +168,7 @@ impl Grid {
         })
     }
 
-    /// Returns the cell beyond the `direction` edge of `cell`, or none outside the grid.
+    /// Returns the cell beyond the `direction` edge of `cell`, or `None` outside the grid.
     #[inline]
     #[must_use]
     pub fn neighbour(self, cell: Cell, direction: Direction) -> Option<Cell> {

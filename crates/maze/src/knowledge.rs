@@ -23,13 +23,13 @@ pub enum Knowledge {
 }
 
 impl Knowledge {
-    /// Returns the knowledge after a look.
+    /// Returns the knowledge of a wall that was seen to stand or not to stand.
     #[must_use]
     pub const fn of_standing(stands: bool) -> Self {
         if stands { Self::Wall } else { Self::Open }
     }
 
-    /// Returns whether anybody has looked.
+    /// Returns whether the wall has been seen.
     #[must_use]
     pub const fn is_known(self) -> bool {
         !matches!(self, Self::Unknown)

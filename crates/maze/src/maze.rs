@@ -203,7 +203,7 @@ impl Maze {
         self.start
     }
 
-    /// Marks the start.
+    /// Sets the start cell and the robot's heading there; `None` removes the start.
     pub fn set_start(&mut self, start: Option<(Cell, Direction)>) {
         self.start = start;
     }
@@ -214,7 +214,7 @@ impl Maze {
         &self.goals
     }
 
-    /// Marks the destination.
+    /// Sets the destination cells.
     pub fn set_goals(&mut self, mut goals: Vec<Cell>) {
         goals.sort_unstable();
         goals.dedup();

@@ -43,7 +43,7 @@ pub fn compressed<A: Copy + PartialEq>(path: &[A], opposite: impl Fn(&A) -> A) -
     }
 }
 
-/// Removes opposite strings, the first first, until there are none.
+/// Removes opposite strings, the earliest first, until none is left.
 fn remove_strings<A: Copy + PartialEq>(path: &mut Vec<A>, opposite: &impl Fn(&A) -> A) {
     let mut start = 0;
     while let Some(action) = path.get(start).copied() {
@@ -51,7 +51,7 @@ fn remove_strings<A: Copy + PartialEq>(path: &mut Vec<A>, opposite: &impl Fn(&A)
         let back = run(path, start + there, &opposite(&action));
         if there >= 2 && back >= 2 && there.abs_diff(back) <= 1 {
             path.drain(start..start + there + back);
-            // What stood before and behind may make a string now.
+            // The actions before and after the removed string may form a string now.
             start = 0;
         } else {
             start += there;

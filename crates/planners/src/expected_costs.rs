@@ -9,7 +9,7 @@ use crate::{Arcs, costs_from};
 #[derive(Clone, Debug, Default)]
 pub struct Decisions {
     actions: usize,
-    /// Choices of each state and action, in this order.
+    /// Actions of all states: those of state 0 first, each state's in the order of the actions.
     choices: Vec<Choice>,
     ends: Vec<(u32, f32)>,
 }
@@ -17,12 +17,13 @@ pub struct Decisions {
 #[derive(Clone, Copy, Debug)]
 struct Choice {
     cost: f32,
-    /// Past the last of its ends; they begin where those of the choice before end.
+    /// End of this choice's range in the list of ends. The range begins where that of the choice
+    /// before it ends.
     ends: u32,
 }
 
 impl Decisions {
-    /// Returns decisions between `actions` actions in each state, and no state yet.
+    /// Returns an empty list of decisions, in which each state will have `actions` actions.
     #[must_use]
     pub const fn between(actions: usize) -> Self {
         Self {
@@ -33,8 +34,8 @@ impl Decisions {
     }
 
     /// Adds the next action of the present state, or the first one of the next state. `cost` is its
-    /// cost and `ends` the states that it may lead to, each with its probability. The missing
-    /// probability to 1 counts as staying.
+    /// cost and `ends` the states that it may lead to, each with its probability. If the
+    /// probabilities add up to less than 1, the rest is the probability of staying.
     pub fn add(&mut self, cost: f64, ends: impl IntoIterator<Item = (u32, f64)>) {
         let ends = ends.into_iter();
         self.ends
@@ -63,8 +64,8 @@ impl Decisions {
         self.choices.is_empty()
     }
 
-    /// Returns the average cost to reach a goal by an action of a state and then by the cheapest
-    /// ones; infinite if none leads there. `costs` are those of the states.
+    /// Returns the average cost to reach a goal by this action of a state and then by the cheapest
+    /// actions, or infinity if no end leads to a goal. `costs` are the costs of the states.
     #[must_use]
     pub fn cost(&self, costs: &[f32], state: usize, action: usize) -> f32 {
         let index = state * self.actions + action;
@@ -144,7 +145,7 @@ pub fn expected_costs(
     costs
 }
 
-/// Parts of a cost that the first guess counts in.
+/// Number of parts per unit of cost in the first estimate, which is computed in whole numbers.
 const PARTS: f32 = 64.0;
 
 /// Returns the states that can lead to a goal, the nearest first, each with its cost if every

@@ -46,7 +46,7 @@ pub struct PoseSet<const N: usize> {
     grid: Grid,
     /// Possible cells by heading, then y; bit x.
     cells: [[u32; N]; 4],
-    /// Pose for which the next drive is planned, as long as it is in the set. Sticking to it keeps
+    /// Pose for which the next drive is planned, as long as it is in the set. Keeping it prevents
     /// the mouse from driving to and fro.
     guess: Option<(Cell, Direction)>,
 }
@@ -54,19 +54,19 @@ pub struct PoseSet<const N: usize> {
 /// Knowledge of a mouse's pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PoseKnowledge {
-    /// Only here.
+    /// The mouse is at one pose for certain.
     Found {
         /// Cell of the mouse.
         cell: Cell,
         /// Heading of the mouse.
         heading: Direction,
     },
-    /// At one of several places.
+    /// The mouse is at one of several poses.
     Among {
         /// Number of poses, at least 2.
         poses: u32,
     },
-    /// Nowhere: a wall in the map is wrong, or something seen was.
+    /// No pose is possible: a wall of the map is wrong, or an observation was.
     Nowhere,
 }
 
@@ -109,8 +109,8 @@ impl<const N: usize> PoseSet<N> {
         Self { grid, cells, guess }
     }
 
-    /// Takes in whether the mouse sees an opening or a wall to `side` of its cell. Unknown walls
-    /// exclude nothing. O(N²).
+    /// Removes the poses that contradict an opening or a wall seen to `side` of the mouse. Unknown
+    /// walls exclude nothing. O(N²).
     pub fn see(&mut self, walls: &impl Walls, side: Direction, is_open: bool) {
         let contrary = Knowledge::of_standing(is_open);
         let fits = |(cell, heading): &(Cell, Direction)| {
@@ -119,7 +119,7 @@ impl<const N: usize> PoseSet<N> {
         *self = Self::of(self.grid, self.iter().filter(fits), self.guess);
     }
 
-    /// Takes in that the mouse has turned to `side` and driven one cell. O(N²).
+    /// Moves all poses as a mouse that has turned to `side` and driven one cell. O(N²).
     pub fn drive(&mut self, walls: &impl Walls, side: Direction) {
         let grid = self.grid;
         let driven = |(cell, heading): (Cell, Direction)| {
@@ -199,7 +199,7 @@ impl<const N: usize> PoseSet<N> {
                     walls.knowledge(twin, other.1.turned(side))
                 });
                 let differ = ours.is_known() && theirs.is_known() && ours != theirs;
-                // Around the mouse itself everything has been seen.
+                // The mouse has already seen everything around itself.
                 if differ && way.is_some() {
                     return way;
                 }
@@ -246,7 +246,7 @@ impl<const N: usize> PoseSet<N> {
 struct Way {
     /// Length in cells.
     cells: u16,
-    /// Direction of its first cell, as the mouse sees it.
+    /// Direction of the way's first cell, in the mouse's frame.
     side: Direction,
 }
 

@@ -91,8 +91,8 @@ impl<const N: usize> StepMap<N> {
         (steps != NEVER).then_some(steps)
     }
 
-    /// Returns the way to go from `cell`: the first of `directions` that is open and than which
-    /// none of them leads nearer to a target. None if none leads to any.
+    /// Returns the direction that leads from `cell` nearest to a target: one of `directions` that
+    /// is open, the first of equally good ones. `None` if no direction leads to a target.
     #[must_use]
     pub fn descend(
         &self,

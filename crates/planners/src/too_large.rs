@@ -7,9 +7,9 @@ use tolman_maze::Grid;
     grid.width(), grid.height()
 )]
 pub struct TooLarge {
-    /// The size of the maze.
+    /// Size of the maze.
     pub grid: Grid,
-    /// Maximum number of columns and rows.
+    /// Maximum number of columns, and of rows, that the map holds.
     pub side: usize,
 }
 

@@ -19,7 +19,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_quantizers::{Gng, GngConfig, Lanes, Quantizer, UnitSearch};
 
-/// Features and units.
+/// Numbers of features and units of the networks that learn.
 const SIZES: [(usize, usize); 6] = [
     (2, 100),
     (2, 1000),
@@ -29,7 +29,7 @@ const SIZES: [(usize, usize); 6] = [
     (72, 42),
 ];
 
-/// Features and units where only searches are measured.
+/// Numbers of features and units of the networks that are only searched.
 const LARGE: [(usize, usize); 2] = [(2, 10_000), (3, 10_000)];
 
 const WAYS: [(&str, UnitSearch, Lanes); 3] = [
@@ -98,8 +98,8 @@ fn grown(dimension: usize, units: usize, growth_period: u32, inputs: &[Vec<f32>]
     gng
 }
 
-/// Points on a smooth surface that is bent into the space of all features, with noise: what sensors
-/// of a robot give, shuffled. The surface has three dimensions, or two where there are only two
+/// Returns shuffled points on a smooth surface in the space of all features, with noise, like the
+/// readings of a robot's sensors. The surface has three dimensions, or two where there are only two
 /// features.
 fn inputs(dimension: usize) -> Vec<Vec<f32>> {
     let mut rng = ChaCha8Rng::seed_from_u64(dimension as u64);

@@ -1,4 +1,4 @@
-//! A quantizer of your own: it learns nothing from inputs that lie far from all it knows.
+//! A quantizer of your own, which ignores inputs that lie far from all its units.
 
 use core::error::Error;
 
@@ -7,7 +7,7 @@ use tolman_quantizers::{Events, Gng, GngConfig, InputError, NearestTwo, Network,
 /// A growing neural gas that disregards outliers.
 struct Wary {
     gas: Gng<f64>,
-    /// Inputs from which it learns whatever they are.
+    /// Number of first inputs from which it learns without a check.
     trusting: u32,
     /// Maximum distance of an input from its nearest unit.
     limit: f64,
@@ -31,7 +31,8 @@ impl Quantizer<f64> for Wary {
     }
 }
 
-/// Learns a line from 0 to 1 with now and then an input at 100, and returns the farthest unit.
+/// Trains on a line from 0 to 1 with a few inputs at 100, and returns the position of the farthest
+/// unit.
 fn farthest(quantizer: &mut impl Quantizer<f64>) -> Result<f64, Box<dyn Error>> {
     for step in 0..5000_u32 {
         let on_line = f64::from(step * 37 % 101) / 100.0;

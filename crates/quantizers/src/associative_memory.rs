@@ -37,7 +37,8 @@ use crate::{
 #[derive(Clone, Debug)]
 pub struct AssociativeMemory<S: Scalar> {
     soinn: Soinn<S>,
-    /// Number of features of a key; those of its response follow.
+    /// Number of features of a key. In each unit, the features of the response follow those of the
+    /// key.
     key_dimension: usize,
 }
 
@@ -46,7 +47,7 @@ pub struct AssociativeMemory<S: Scalar> {
 pub struct Recall<S> {
     /// Unit that holds the association, with the distance of its part from the query.
     pub unit: Nearest<S>,
-    /// Other part of the association: the memory's answer.
+    /// Other part of the association: the recalled response or key.
     pub values: Vec<S>,
 }
 
@@ -173,7 +174,7 @@ impl<S: Scalar> AssociativeMemory<S> {
     }
 
     fn recall_all(&self, part: Part, asked: &[S], reach: S) -> Result<Vec<Recall<S>>, InputError> {
-        // Refuses what is invalid.
+        // The search refuses an invalid query.
         self.recall(part, asked)?;
         let clusters = self.network().clusters();
         let mut nearest: Vec<Option<Nearest<S>>> = vec![None; clusters.count()];
@@ -201,7 +202,7 @@ impl<S: Scalar> AssociativeMemory<S> {
         let mut recalls: Vec<Recall<S>> = Vec::new();
         for unit in found {
             let values = self.other_part(part, unit);
-            // A lesson that came twice has two units, and no edge yet.
+            // A lesson learnt twice has two units without an edge.
             if recalls.iter().all(|known| known.values != values) {
                 recalls.push(Recall { unit, values });
             }

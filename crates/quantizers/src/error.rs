@@ -21,9 +21,9 @@ pub enum InputError {
     /// A feature is NaN or infinite.
     #[error("feature {feature} is {value}: leave such inputs out or repair them before")]
     NotFinite {
-        /// Its number, from 0.
+        /// Index of the feature, from 0.
         feature: usize,
-        /// The value given.
+        /// Value that was given.
         value: f64,
     },
     /// A feature is so large that a squared distance could overflow.
@@ -31,11 +31,11 @@ pub enum InputError {
         "feature {feature} is {value:e}, beyond ±{limit:e}, where squared distances overflow: scale the inputs"
     )]
     TooLarge {
-        /// Its number, from 0.
+        /// Index of the feature, from 0.
         feature: usize,
-        /// The value given.
+        /// Value that was given.
         value: f64,
-        /// The largest magnitude allowed.
+        /// Maximum magnitude of a feature.
         limit: f64,
     },
     /// The mask of a query has another number of features than the network.
@@ -76,12 +76,12 @@ pub enum QuantizerConfigError {
     /// Inputs must have features.
     #[error("the inputs have no features; give at least one")]
     NoFeatures,
-    /// A field, or a number that was saved, is outside its range.
+    /// A field, or a saved number, is outside its range.
     #[error("{field} is {value} but has to be {range}")]
     OutOfRange {
-        /// The name of the field or of the quantity.
+        /// Name of the field or of the quantity.
         field: &'static str,
-        /// The value given.
+        /// Value that was given.
         value: f64,
         /// Allowed range, in words.
         range: &'static str,
@@ -89,26 +89,26 @@ pub enum QuantizerConfigError {
     /// A weight is negative, NaN or infinite.
     #[error("the weight of feature {feature} is {value}: it has to be finite and not negative")]
     BadWeight {
-        /// The number of the feature, from 0.
+        /// Index of the feature, from 0.
         feature: usize,
         /// Value of the weight.
         value: f64,
     },
-    /// With no weight above zero all units are equally near.
+    /// All weights are 0, so all units would be equally near.
     #[error("all weights are zero: at least one feature has to count")]
     NoWeight,
-    /// A unit that the network is to begin with is not a valid input.
+    /// An initial unit of the network is not a valid input.
     #[error("initial unit {unit}: {source}")]
     BadUnit {
-        /// Its number, from 0.
+        /// Number of the initial unit, from 0.
         unit: usize,
-        /// The fault.
+        /// Fault of the unit's prototype.
         source: InputError,
     },
-    /// A network begins with two units or finds its own.
+    /// Only one initial unit is given.
     #[error("a network cannot begin with {found} units; give none, or at least two")]
     TooFewUnits {
-        /// Number given.
+        /// Number of initial units given.
         found: usize,
     },
 }
@@ -155,7 +155,7 @@ pub struct UnknownUnit(pub UnitId);
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum SnapshotError {
-    /// The file is something else.
+    /// The text is not a saved network of this kind.
     #[error("the format is {found:?}, expected {expected:?}: give a saved network of this kind")]
     WrongFormat {
         /// Format that is read here.
@@ -168,40 +168,39 @@ pub enum SnapshotError {
         "version {found} is newer than {newest}, the newest this program reads: use a newer program"
     )]
     WrongVersion {
-        /// The newest known version.
+        /// Newest version that this program reads.
         newest: u32,
-        /// The version of the text.
+        /// Version of the text.
         found: u32,
     },
-    /// A field of the configuration is outside its range, or a weight is, or a number that an
-    /// algorithm keeps.
+    /// A field of the configuration, a weight or another saved number is outside its range.
     #[error(transparent)]
     Config(#[from] QuantizerConfigError),
     /// A prototype is not a valid input.
     #[error("the prototype of unit {id}: {source}")]
     BadPrototype {
-        /// The unit.
+        /// Unit with the invalid prototype.
         id: UnitId,
-        /// The fault.
+        /// Fault of the prototype.
         source: InputError,
     },
     /// A remembered input is not valid.
     #[error("remembered input {input}: {source}")]
     BadMemory {
-        /// Its number, from 0.
+        /// Number of the remembered input, from 0.
         input: usize,
-        /// The fault.
+        /// Fault of the remembered input.
         source: InputError,
     },
-    /// Ids have to ascend and to lie below the next id.
+    /// The ids do not ascend, or one is not below the next id.
     #[error("unit {id} is out of order: ids have to ascend and be less than {next_id}")]
     BadId {
-        /// The unit.
+        /// Unit whose id is out of order.
         id: UnitId,
-        /// The id of the next unit to come.
+        /// Id that the next new unit will get.
         next_id: u32,
     },
-    /// An edge has an end that is not a unit, joins a unit to itself or stands there twice.
+    /// An edge has an end that is not a unit, joins a unit to itself, or is given twice.
     #[error("the edge {}–{} has an end that is not a unit, or joins a unit to itself, or comes twice: remove it", .ends.0, .ends.1)]
     BadEdge {
         /// Ids of the units at its ends.
@@ -212,9 +211,9 @@ pub enum SnapshotError {
     WrongCount {
         /// Kind of the list's items.
         what: &'static str,
-        /// Number that there must be.
+        /// Number of items expected.
         expected: usize,
-        /// Number that there is.
+        /// Number of items found.
         found: usize,
     },
 }

@@ -11,30 +11,30 @@ use crate::UnitId;
 pub enum Event {
     /// A unit was inserted, without edges so far.
     Inserted {
-        /// The unit.
+        /// Inserted unit.
         id: UnitId,
-        /// Units between which it was put; `None` if it was made of an input.
+        /// Units between which it was inserted; `None` for a unit made of an input.
         between: Option<(UnitId, UnitId)>,
     },
-    /// A unit went. Its edges went just before.
+    /// A unit was removed. Its edges were removed just before.
     Removed {
-        /// The unit.
+        /// Removed unit.
         id: UnitId,
     },
-    /// A unit became part of another. Its edges were taken away or taken over just before.
+    /// A unit was merged into another. Its edges were removed or taken over just before.
     Merged {
         /// The removed unit.
         gone: UnitId,
-        /// The unit that stands for both.
+        /// Unit that now stands for both.
         into: UnitId,
     },
     /// An edge was added. (Renewing one is not an event.)
     Linked(UnitId, UnitId),
-    /// An edge went.
+    /// An edge was removed.
     Unlinked(UnitId, UnitId),
 }
 
-/// The events of a network, recorded from the moment that they are asked for.
+/// Log of a network's events, recorded from the first call of [`listen`](Self::listen) on.
 #[derive(Clone, Debug, Default)]
 pub struct Events {
     listening: bool,
@@ -42,7 +42,7 @@ pub struct Events {
 }
 
 impl Events {
-    /// Keeps events from now on. Without it, none are kept and nothing is allocated.
+    /// Records events from now on. Before the first call, none are kept and nothing is allocated.
     pub fn listen(&mut self) {
         self.listening = true;
     }

@@ -45,7 +45,7 @@ use crate::{
 pub struct Gng<S: Scalar> {
     config: GngConfig,
     network: Network<S>,
-    /// Sums by slot.
+    /// Error and utility of each unit, by slot.
     sums: Vec<Sums>,
     decay: Decay,
     steps: u64,
@@ -88,7 +88,7 @@ impl<S: Scalar> Gng<S> {
         })
     }
 
-    /// Puts units at given positions before the first input, each joined to the one before.
+    /// Inserts units at the given positions before the first input, each joined to the one before.
     ///
     /// # Errors
     /// If there are fewer than two units, one is not a valid input, or the network is not empty.
@@ -199,7 +199,7 @@ impl<S: Scalar> Gng<S> {
     fn begin(&mut self, input: &[S], best: Best<S>) -> NearestTwo<S> {
         let met = self.network.found(best.first);
         if let Some(first) = met.filter(|met| met.squared_distance <= S::ZERO) {
-            // Still the one point.
+            // The input equals the only unit.
             let second = None;
             return NearestTwo { first, second };
         }
@@ -303,7 +303,8 @@ impl<S: Scalar> Gng<S> {
         }
     }
 
-    /// Puts a unit half-way between the unit of largest error and its neighbour of largest error.
+    /// Inserts a unit half-way between the unit of largest error and its neighbour of largest
+    /// error.
     fn grow(&mut self) {
         let error = |slot: usize| self.sums[slot].error;
         let Some((q, f)) = self.network.worst_edge(error) else {
@@ -336,8 +337,8 @@ impl<S: Scalar> Gng<S> {
         }
     }
 
-    /// Takes a unit away, with the neighbours it leaves alone, unless fewer than two units would be
-    /// left.
+    /// Removes a unit and the neighbours that it leaves without an edge, unless fewer than two
+    /// units would remain.
     fn remove_slot(&mut self, slot: usize) {
         let links = self.network.links();
         let alone = links

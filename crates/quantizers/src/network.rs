@@ -57,7 +57,7 @@ pub struct Network<S> {
     metric: Metric<S>,
     prototypes: Prototypes<S>,
     links: Links,
-    /// The id of each slot, ascending.
+    /// Id of the unit in each slot, ascending.
     ids: Vec<UnitId>,
     /// Whether the unit of the slot is still there.
     live: Vec<bool>,
@@ -68,7 +68,7 @@ pub struct Network<S> {
     kernels: Kernels,
     /// Index for searches, if one is used.
     tree: Option<Tree<S>>,
-    /// The new numbers of slots while gaps are closed; kept so as not to allocate.
+    /// New numbers of the slots while gaps are closed. The vector is kept to avoid an allocation.
     renumbered: Vec<u32>,
 }
 
@@ -120,7 +120,7 @@ impl<S: Scalar> Network<S> {
         self.len == 0
     }
 
-    /// Returns whether the unit exists.
+    /// Returns whether the network has a unit of this id.
     pub fn contains(&self, id: UnitId) -> bool {
         self.slot(id).is_ok()
     }
@@ -233,7 +233,7 @@ impl<S: Scalar> Network<S> {
         self.consider_tree();
     }
 
-    /// Builds the index if it is wanted and not there yet.
+    /// Builds the index if it is wanted and does not exist yet.
     fn consider_tree(&mut self) {
         if self.tree.is_none() && self.search.wants_tree(self.dimension(), self.len) {
             self.tree = Some(Tree::new(&self.prototypes, self.slots(), self.ids.len()));
@@ -283,14 +283,14 @@ impl<S: Scalar> Network<S> {
         slots.find(|other| *other != slot && *other < self.ids.len())
     }
 
-    /// Returns both candidates by name, if there were two.
+    /// Returns both candidates by their ids, if there are two.
     pub(crate) fn found_two(&self, best: Best<S>) -> Option<NearestTwo<S>> {
         let second = Some(self.found(best.second)?);
         let first = self.found(best.first)?;
         Some(NearestTwo { first, second })
     }
 
-    /// Returns a candidate by name, if there was one.
+    /// Returns a candidate by its id, if there is one.
     pub(crate) fn found(&self, candidate: Candidate<S>) -> Option<Nearest<S>> {
         let id = self.ids.get(candidate.slot as usize)?;
         Some(Nearest {
@@ -299,7 +299,7 @@ impl<S: Scalar> Network<S> {
         })
     }
 
-    /// Returns a unit at distance 0: one that was made of the input.
+    /// Returns the unit of a slot at distance 0, for a unit that was made of the input.
     pub(crate) fn at(&self, slot: usize) -> Nearest<S> {
         Nearest {
             id: self.ids[slot],
@@ -333,7 +333,7 @@ impl<S: Scalar> Network<S> {
     }
 
     /// Returns the edge that needs a new unit most: from the unit of largest error to its neighbour
-    /// of largest error. Of equals the first counts.
+    /// of largest error. Among equal errors, the first counts.
     pub(crate) fn worst_edge(&self, error: impl Fn(usize) -> f64) -> Option<(usize, usize)> {
         let worse = |worst, slot| {
             if error(slot) > error(worst) {
@@ -368,7 +368,7 @@ impl<S: Scalar> Network<S> {
         self.next_id < u32::MAX
     }
 
-    /// Returns a new unit at `prototype`, without edges; its slot is the last.
+    /// Inserts a unit at `prototype`, without edges, and returns its slot, which is the last.
     pub(crate) fn insert(&mut self, prototype: &[S]) -> usize {
         let slot = self.prototypes.push();
         for (feature, value) in prototype.iter().enumerate() {
@@ -377,8 +377,8 @@ impl<S: Scalar> Network<S> {
         self.enter(None)
     }
 
-    /// Puts a new unit half-way between two, joined to both in place of their edge; its slot is the
-    /// last.
+    /// Inserts a unit half-way between two units, joined to both in place of their edge. Its slot
+    /// is the last.
     pub(crate) fn split_edge(&mut self, a: usize, b: usize) {
         let half = S::from_f64(0.5);
         let slot = self.prototypes.push();
@@ -407,7 +407,7 @@ impl<S: Scalar> Network<S> {
         slot
     }
 
-    /// Takes a unit and its edges away.
+    /// Removes a unit and its edges.
     pub(crate) fn remove(&mut self, slot: usize) {
         while let Some((other, _)) = self.links.last(slot) {
             self.cut(slot, other);
@@ -416,8 +416,8 @@ impl<S: Scalar> Network<S> {
         self.events.push(Event::Removed { id: self.ids[slot] });
     }
 
-    /// Makes one unit part of another, which takes over its edges with their ages, the younger one
-    /// where both had one.
+    /// Merges a unit into another, which takes over its edges with their ages. Where both had an
+    /// edge, the younger age counts.
     pub(crate) fn merge(&mut self, gone: usize, into: usize) {
         while let Some((other, age)) = self.links.last(gone) {
             self.cut(gone, other);
@@ -479,7 +479,7 @@ impl<S: Scalar> Network<S> {
         }
     }
 
-    /// Takes away the edges of a unit that are older than `max_age`.
+    /// Removes the edges of a unit that are older than `max_age`.
     #[inline]
     pub(crate) fn cut_old_edges(&mut self, slot: usize, max_age: u32) {
         for place in (0..self.links.degree(slot)).rev() {
@@ -499,7 +499,8 @@ impl<S: Scalar> Network<S> {
         }
     }
 
-    /// Moves each neighbour of a unit by `rate` of its slot of the way to `target`.
+    /// Moves each neighbour of a unit towards `target`, by the part of the way that `rate` gives
+    /// for its slot.
     #[inline]
     pub(crate) fn approach_neighbours(
         &mut self,
@@ -517,12 +518,13 @@ impl<S: Scalar> Network<S> {
 
     /// Finishes the processing of an input. Builds the index once it pays, and closes the gaps that
     /// removed units left if it is worthwhile. It closes them in `per_unit` as well, which has one
-    /// item per slot. Slots known from before are void.
+    /// item per slot. Earlier slots are no longer valid.
     #[inline]
     pub(crate) fn tidy<T: Copy>(&mut self, per_unit: &mut Vec<T>) {
         let blocks = |units: usize| units.div_ceil(prototypes::LANES);
         let used = blocks(self.ids.len());
-        // An eighth of the blocks, so that a gap costs little per removal and little per search.
+        // The limit is an eighth of the blocks, so that gaps cost little per removal and little per
+        // search.
         if blocks(self.len) + (used / 8).max(1) <= used {
             self.close_gaps(per_unit);
         }

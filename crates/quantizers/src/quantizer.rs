@@ -2,10 +2,10 @@
 
 use crate::{Events, InputError, Nearest, NearestTwo, Network, NetworkSnapshot, Scalar};
 
-/// Learns a graph of prototypes from one input after the other.
+/// Learns a graph of prototypes from inputs, one by one.
 ///
-/// Maps that are built on states need no more than this: feed it, ask which unit is nearest, look
-/// at its [`Network`].
+/// A map whose states are units needs only this trait: it observes inputs, finds the nearest unit
+/// and reads the [`Network`].
 pub trait Quantizer<S: Scalar> {
     /// Learns from one input, and returns the two units nearest to it.
     ///

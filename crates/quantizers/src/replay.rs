@@ -51,9 +51,10 @@ use crate::{
 pub struct ReplayQuantizer<S, Q> {
     config: ReplayConfig,
     quantizer: Q,
-    /// Remembered inputs, one by one.
+    /// Features of the remembered inputs, one input after another.
     memory: Vec<S>,
-    /// An input on its way from the memory to the quantizer; kept so as not to allocate.
+    /// Input that is copied from the memory to the quantizer. The vector is kept to avoid an
+    /// allocation.
     drawn: Vec<S>,
     /// Number of inputs so far.
     seen: u64,
@@ -81,11 +82,11 @@ pub struct ReplayConfig {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum ReplayMemory {
-    /// All inputs so far with the same probability (reservoir sampling, algorithm R of Vitter
+    /// Keeps each input so far with the same probability (reservoir sampling, algorithm R of Vitter
     /// 1985): for worlds that do not change.
     #[default]
     Reservoir,
-    /// The last ones: for worlds that change.
+    /// Keeps the most recent inputs: for worlds that change.
     Recent,
 }
 
@@ -108,7 +109,7 @@ impl ReplayConfig {
 }
 
 impl<S: Scalar, Q: Quantizer<S>> ReplayQuantizer<S, Q> {
-    /// Puts a memory before a quantizer.
+    /// Returns a quantizer that learns through a memory of past inputs.
     ///
     /// # Errors
     /// If a field of `config` is outside its range.
@@ -166,26 +167,26 @@ impl<S: Scalar, Q: Quantizer<S>> ReplayQuantizer<S, Q> {
     }
 }
 
-/// All there is to know of a [`ReplayQuantizer`], to be saved and resumed.
+/// Complete state of a [`ReplayQuantizer`], to be saved and resumed.
 ///
-/// With the feature `serde`, `ReplayQuantizer` itself is serialized as this, and refuses to be made
-/// of what is invalid.
+/// With the feature `serde`, `ReplayQuantizer` itself is serialized in this form. Deserializing
+/// refuses invalid values.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SavedReplay<S, Q> {
     /// Name of the format.
     pub format: String,
-    /// The version of the format.
+    /// Version of the format.
     pub version: u32,
-    /// The parameters.
+    /// Parameters of the memory.
     pub config: ReplayConfig,
     /// The quantizer that learns.
     pub quantizer: Q,
-    /// Remembered inputs, one by one.
+    /// Features of the remembered inputs, one input after another.
     pub memory: Vec<S>,
     /// Number of inputs so far.
     pub seen: u64,
-    /// Number of random words used so far.
+    /// Number of 32-bit random words drawn so far.
     pub words: u64,
 }
 

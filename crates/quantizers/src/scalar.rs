@@ -22,21 +22,21 @@ pub trait Scalar:
     + Sync
     + 'static
 {
-    /// 0.
+    /// The number 0.
     const ZERO: Self;
-    /// +∞.
+    /// Positive infinity.
     const INFINITY: Self;
 
     /// Returns the nearest value of this type.
     fn from_f64(value: f64) -> Self;
-    /// Returns the same value, exactly.
+    /// Returns the exact value as `f64`.
     fn to_f64(self) -> f64;
     /// Returns whether the number is neither infinite nor NaN.
     fn is_finite(self) -> bool {
         self.to_f64().is_finite()
     }
 
-    /// Maximum squared distance allowed. It leaves room for sums of errors.
+    /// Maximum squared distance. It leaves room for sums of errors.
     #[doc(hidden)]
     const MAX_SQUARED_DISTANCE: f64;
 }

@@ -53,10 +53,10 @@ use crate::{
 pub struct Soinn<S: Scalar> {
     config: SoinnConfig,
     network: Network<S>,
-    /// Tallies by slot.
+    /// Tally of each unit, by slot.
     tallies: Vec<Tally>,
     steps: u64,
-    /// Slots that are to be removed; kept so as not to allocate.
+    /// Slots to remove. The vector is kept to avoid an allocation.
     doomed: Vec<usize>,
 }
 
@@ -64,13 +64,15 @@ pub struct Soinn<S: Scalar> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Tally {
-    /// E: the sum of the distances of the inputs it won.
+    /// E: sum of the distances (not squared) of the inputs it won.
     pub error: f64,
-    /// M: how many those are.
+    /// M: number of the inputs it won, a fraction after an insertion.
     pub wins: f64,
-    /// Step at which it was made, or that of the older of the two units between which it was put.
+    /// Step at which the unit was made. A unit inserted between two others has the step of the
+    /// older one.
     pub since: u64,
-    /// R: E / M after the last insertion it had part in, or `None` if there was none.
+    /// R: mean error E / M after the last insertion that the unit took part in; `None` before the
+    /// first.
     pub radius: Option<f64>,
 }
 
@@ -94,7 +96,7 @@ impl Tally {
         self.radius.is_some_and(|radius| self.mean_error() > radius)
     }
 
-    /// Returns the tally that remains with a unit after one is put between it and another.
+    /// Returns the tally that a unit keeps after a new unit is inserted between it and another.
     fn reduced(self) -> Self {
         Self {
             error: self.error * 2.0 / 3.0,
@@ -103,7 +105,7 @@ impl Tally {
         }
     }
 
-    /// Returns the tally of a unit that was put between two others.
+    /// Returns the tally of a unit inserted between two others.
     fn between(q: Self, f: Self) -> Self {
         Self {
             error: (q.error + f.error) / 6.0,
@@ -204,7 +206,7 @@ impl<S: Scalar> Soinn<S> {
             self.insert_where_error_is_large();
             self.remove_noise();
             if !self.network.contains(met.first.id) {
-                // The unit that stood for the input was removed as noise at once.
+                // The unit that stood for the input was at once removed as noise.
                 met = self.network.nearest_two(input).unwrap_or(met);
             }
         }
@@ -234,14 +236,14 @@ impl<S: Scalar> Soinn<S> {
         self.network.insert(input)
     }
 
-    /// Returns whether an input lies within the similarity threshold of a unit. (Algorithms 3.2 and
-    /// 3.3.)
+    /// Returns whether an input lies within the similarity threshold of a unit (algorithms 3.2 and
+    /// 3.3).
     fn is_similar(&self, unit: Candidate<S>) -> bool {
         let (slot, squared) = (unit.slot as usize, unit.squared_distance);
         let reaches = |other| squared <= self.network.squared_distance(slot, other);
         match self.config.threshold {
             SimilarityThreshold::Constant(distance) => squared.to_f64() <= distance * distance,
-            // Within the distance of the farthest is within that of any.
+            // A distance is at most the largest of several if it is at most any of them.
             SimilarityThreshold::Adaptive if self.network.links().degree(slot) > 0 => {
                 self.network.links().neighbours(slot).any(reaches)
             }
@@ -253,7 +255,7 @@ impl<S: Scalar> Soinn<S> {
         }
     }
 
-    /// Joins the two nearest units and moves the winner and its neighbours. (Steps 4 to 9.)
+    /// Joins the two nearest units and moves the winner and its neighbours (steps 4 to 9).
     fn adapt(&mut self, input: &[S], best: Best<S>) {
         let (first, second) = (best.first.slot as usize, best.second.slot as usize);
         self.network.link(first, second, 0);
@@ -301,9 +303,9 @@ impl<S: Scalar> Soinn<S> {
         self.tallies.push(r_tally);
     }
 
-    /// Removes what [`Denoising`] counts as noise. It is called automatically at the end of every
-    /// period of λ inputs (step 10, its second half). Call it before you count clusters in the
-    /// middle of a period, when some units are too new to have a neighbour.
+    /// Removes the units that [`Denoising`] counts as noise. It is called automatically at the end
+    /// of every period of λ inputs (step 10, its second half). Call it before you count clusters in
+    /// the middle of a period, when some units are too new to have a neighbour.
     ///
     /// # Complexity
     /// Units.

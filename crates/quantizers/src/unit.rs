@@ -1,11 +1,11 @@
-//! Units and what a search says of them.
+//! Units, and the results of a search for the nearest ones.
 
 use core::fmt;
 
 use crate::Scalar;
 
-/// The name of a unit, for good: no other unit of the same network ever bears it, also after the
-/// unit is gone. Later units have greater ids.
+/// Permanent id of a unit. No other unit of the same network ever has it, even after the unit is
+/// removed. Later units have greater ids.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(transparent))]
@@ -20,9 +20,9 @@ impl fmt::Display for UnitId {
 /// A unit that a search found, and how far it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest<S> {
-    /// The unit.
+    /// Id of the unit.
     pub id: UnitId,
-    /// Its squared distance, Σ w (x − p)², over the features that were compared.
+    /// Squared distance from the input, Σ w (x − p)², over the features that were compared.
     pub squared_distance: S,
 }
 
@@ -36,8 +36,8 @@ impl<S: Scalar> Nearest<S> {
 /// The two units nearest to an input. Of equally near units the one with the smaller id is nearer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearestTwo<S> {
-    /// The nearest unit.
+    /// Nearest unit.
     pub first: Nearest<S>,
-    /// The second nearest, if there are two units.
+    /// Second nearest unit, if there are two.
     pub second: Option<Nearest<S>>,
 }

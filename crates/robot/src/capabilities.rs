@@ -43,7 +43,7 @@ pub trait Clock {
     fn time_us(&self) -> u64;
 }
 
-// Whatever holds the sensing of a laser robot can tell what that can.
+// A type that holds a laser robot's readings has the laser robot's capabilities.
 
 impl<S: AsRef<LaserSensing>> Ranges for S {
     fn scan(&self) -> Option<&Scan> {

@@ -13,7 +13,7 @@ pub const WHEEL_RADIUS: f64 = 0.0205;
 /// Distance between the wheels, m.
 pub const TRACK: f64 = 0.053;
 
-/// The wheels of the real robot turn no faster, rad/s: about 0.13 m/s, or 4.9 rad/s in place.
+/// Maximum speed of the real robot's wheels, rad/s: about 0.13 m/s ahead, or 4.9 rad/s in place.
 #[expect(clippy::approx_constant, reason = "the data sheet says 6.28, not 2π")]
 pub const MOST_WHEEL_SPEED: f64 = 6.28;
 
@@ -24,8 +24,8 @@ pub const ENCODER_STEP: f64 = TAU / 1000.0;
 /// Number of proximity sensors.
 pub const PROXIMITY_SENSORS: usize = 8;
 
-/// Position and direction of each proximity sensor, degrees and m. Number 0 looks ahead, a little
-/// to the right; the others follow clockwise.
+/// Position (m) and direction (degrees) of each proximity sensor. Number 0 looks ahead, a little to
+/// the right; the others follow clockwise.
 const MOUNTS: [(f64, f64, f64); PROXIMITY_SENSORS] = [
     (-17.2, 0.030, -0.010),
     (-45.9, 0.022, -0.025),
@@ -73,8 +73,9 @@ impl WheelSpeeds {
         right: 0.0,
     };
 
-    /// Returns the wheel speeds at which the robot moves like this (m/s, rad/s). If a wheel would
-    /// turn faster than `most`, rad/s, both are slowed alike, so that the path is the same.
+    /// Returns the wheel speeds, rad/s, at which the robot moves by `twist` (m/s, rad/s). If a
+    /// wheel would turn faster than `most`, rad/s, both are slowed alike, so that the path is the
+    /// same.
     ///
     /// ```
     /// use tolman_geom::Twist;

@@ -71,9 +71,9 @@ pub struct SerialEpuck<P, W> {
     port: P,
     wait: W,
     step_us: u64,
-    /// The encoders' counters, which turn over at 2¹⁶.
+    /// Last readings of the encoders' counters, which wrap at 2¹⁶.
     counters: [u16; 2],
-    /// Number of lines, not answers, that are skipped.
+    /// Number of lines before an answer that are skipped: 0 once the connection is open.
     foreign_lines: usize,
     sensing: EpuckSensing,
 }
@@ -84,7 +84,7 @@ impl<P: Read + Write, W: FnMut(Duration)> SerialEpuck<P, W> {
     /// which `wait` is called.
     ///
     /// # Errors
-    /// [`SerialError`] if it does not answer as it should.
+    /// [`SerialError`] if the robot does not answer, or not as its protocol says.
     pub fn open(port: P, step_us: u64, wait: W) -> Result<Self, SerialError> {
         let mut robot = Self {
             port,
@@ -119,7 +119,8 @@ impl<P: Read + Write, W: FnMut(Duration)> SerialEpuck<P, W> {
         }))
     }
 
-    /// Sets the speeds of the wheels, encoder steps a second, and sees that they are set.
+    /// Sets the speeds of the wheels, encoder steps per second, and checks that the robot took
+    /// them.
     fn drive(&mut self, told: [i32; 2]) -> Result<(), SerialError> {
         let [left, right] = told;
         self.ask(&format!("D,{left},{right}"), "d")?;
@@ -229,7 +230,7 @@ impl<P: Read + Write, W: FnMut(Duration)> Robot for SerialEpuck<P, W> {
                 Ok(())
             }
             Err(error) => {
-                // It is to stand still, if it still listens.
+                // If the robot still listens, it stops.
                 let _ = self.port.write_all(b"D,0,0\n");
                 let _ = self.port.flush();
                 self.sensing.proximity = None;
@@ -240,7 +241,7 @@ impl<P: Read + Write, W: FnMut(Duration)> Robot for SerialEpuck<P, W> {
     }
 }
 
-/// Reason why the e-puck does not obey.
+/// Reason why the exchange with the e-puck failed.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum SerialError {
@@ -254,13 +255,13 @@ pub enum SerialError {
         "the port gives nothing more: check that the e-puck is switched on, and connect to it again"
     )]
     Closed,
-    /// The port failed.
+    /// The port reported an error of another kind.
     #[error("the port failed: {0:?}")]
     Port(ErrorKind),
     /// The answer is not a line of text.
     #[error("the e-puck sends bytes that are not text: check the port's speed and its firmware")]
     Garbage,
-    /// The answer is that to another command.
+    /// The answer belongs to another command.
     #[error(
         "the e-puck answers {answer:?} where `{expected}` should stand: open its port again; if that does not help, switch it off and on"
     )]
@@ -270,7 +271,7 @@ pub enum SerialError {
         /// Answer received.
         answer: String,
     },
-    /// There are not as many numbers as there should be.
+    /// The answer has too few or too many numbers.
     #[error(
         "the e-puck answers {answer:?}, which does not have {expected} numbers: a part of the \
          line was lost; open its port again"
@@ -281,7 +282,7 @@ pub enum SerialError {
         /// Answer received.
         answer: String,
     },
-    /// The wheels' speeds differ from the command.
+    /// The wheels' speeds differ from those commanded.
     #[error(
         "the e-puck drives at {set:?} steps a second where it was told {told:?}: a byte was lost, or its remote control is in use; open its port again"
     )]

@@ -9,12 +9,12 @@ use crate::Landmark;
 ///
 /// Each mapper names in [`Observation`](Self::Observation) what it observes at a time. MSLST
 /// observes a time step with its scan and the action under way. CPM observes a fragment walked from
-/// place to place, and the diktiometry a move with bounds on its odometry. Make these from your
-/// log; what a mapper needs and a log does not have is a field that cannot be filled.
+/// place to place, and the diktiometry a move with bounds on its odometry. Make these observations
+/// from your log. A log that lacks one of their fields does not suit the mapper.
 pub trait Mapper {
     /// One observation of the mapper.
     type Observation;
-    /// Reason why it refuses an observation.
+    /// Reason why the mapper refuses an observation.
     type Error;
 
     /// Takes in one observation.
@@ -100,7 +100,7 @@ impl<M: Mapper + ?Sized> Mapper for &mut M {
 pub struct MapView {
     /// The places, by id.
     pub places: Vec<MapPlace>,
-    /// The ways between them. A way that can be gone both ways stands here twice.
+    /// Ways between the places. A way that can be gone in both directions is listed twice.
     pub links: Vec<MapLink>,
 }
 

@@ -54,7 +54,7 @@ pub trait Robot {
 
 /// A command that makes a robot stand still.
 pub trait Standstill {
-    /// The command.
+    /// Command for standing still.
     const STOP: Self;
 }
 

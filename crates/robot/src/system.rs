@@ -8,7 +8,7 @@ use crate::{Landmark, Mapper, Robot};
 /// robot stands in the bounds of its implementation, as [capabilities](crate::Ranges) and never as
 /// the name of a robot.
 pub trait System<R: Robot>: Mapper {
-    /// Reason why it cannot continue: the robot's error, or a refusal of one of its parts.
+    /// Reason why the system cannot continue: the robot's error, or a refusal of one of its parts.
     type Failure;
 
     /// Makes the next action of `task` with `robot`, a few time steps, and returns how the task

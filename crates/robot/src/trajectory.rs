@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 
 use tolman_geom::{Point, Pose};
 
-/// Where a robot was when: a way in time, on which it can be asked for any time between.
+/// Poses of a robot over time, from which the pose at any time between them is interpolated.
 ///
 /// ```
 /// use tolman_robot::{TimedPose, Trajectory};
@@ -65,13 +65,13 @@ impl Trajectory {
     }
 }
 
-/// A pose as seen from an earlier or later one, known from elsewhere to be so.
+/// The pose at one time relative to the pose at another, as known from elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseRelation {
-    /// Time of the pose from which it is seen, s.
+    /// Time of the pose in whose frame `seen` is given, s.
     pub from: f64,
     /// Time of the pose seen, s.
     pub to: f64,
-    /// The second as seen from the first.
+    /// Pose at the time `to`, in the frame of the pose at the time `from`.
     pub seen: Pose,
 }

@@ -1,5 +1,5 @@
-/// The command of a drive that turns and translates at a fraction of its full rates: Pyrobot's
-/// `move(translate, rotate)`, which MSLST is written in.
+/// Command of a drive, as fractions of its full turn rate and full speed. Source: Pyrobot's
+/// `move(translate, rotate)`, in which MSLST is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct TurnTranslate {
@@ -10,7 +10,7 @@ pub struct TurnTranslate {
 }
 
 impl TurnTranslate {
-    /// Neither turns nor moves.
+    /// Command of a robot that stands still.
     pub const STOP: Self = Self {
         turn: 0.0,
         translate: 0.0,

@@ -14,9 +14,9 @@
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConfidenceInterval {
-    /// The lower end.
+    /// Lower end, in the unit of the sample.
     pub low: f64,
-    /// The upper end.
+    /// Upper end, in the unit of the sample.
     pub high: f64,
 }
 

@@ -5,14 +5,14 @@ use super::beta::regularized_incomplete_beta;
 use super::error::check_probability;
 use super::{ConfidenceInterval, SampleError, wilson_interval};
 
-/// A sample by its size, mean and standard deviation (n − 1).
+/// A sample described by its size, mean and standard deviation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SampleSummary {
     /// Number of values.
     pub count: u64,
     /// Mean of the values.
     pub mean: f64,
-    /// Standard deviation of the values.
+    /// Standard deviation of the values, with n − 1 in the denominator.
     pub sd: f64,
 }
 

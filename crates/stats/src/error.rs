@@ -17,7 +17,7 @@ pub enum SampleError {
         "value {index} is {value}; samples must be finite, so leave it out or repair its source"
     )]
     NotFinite {
-        /// Its place in the sample, from 0.
+        /// Index of the value in the sample, from 0.
         index: usize,
         /// Value that was given.
         value: f64,
@@ -25,9 +25,9 @@ pub enum SampleError {
     /// The values of a paired test do not pair up.
     #[error("a sample of {first} values and one of {second} cannot be paired; give equal lengths")]
     Unpaired {
-        /// The length of the first sample.
+        /// Number of values in the first sample.
         first: usize,
-        /// The length of the second.
+        /// Number of values in the second sample.
         second: usize,
     },
     /// All values are the same where some difference is needed.

@@ -3,8 +3,8 @@ use tolman_robot::epuck::{PROXIMITY_SENSORS, proximity_mounts};
 
 use super::RangeCurve;
 
-/// Present echoes of the eight proximity sensors: one point each in the robot's frame, m, or
-/// nothing within reach.
+/// Echoes of the eight proximity sensors in one time step: a point in the robot's frame, m, for
+/// each sensor, or nothing within reach.
 ///
 /// The sensors are numbered as [`proximity_mounts`]: 0 and 7 look ahead, 1 and 6 diagonally, 2 and
 /// 5 to the side.
@@ -34,7 +34,7 @@ impl Echoes {
         self.points.get(sensor).copied().flatten()
     }
 
-    /// Returns all that is met.
+    /// Returns the points that the sensors meet, in the robot's frame, m.
     pub fn iter(&self) -> impl Iterator<Item = Point> + '_ {
         self.points.iter().copied().flatten()
     }

@@ -12,7 +12,7 @@ use super::Echoes;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Forward {
     config: ForwardConfig,
-    /// The side of the bend it is turning in.
+    /// Side of the bend that the robot is turning in.
     bend: Option<Side>,
     /// Direction of the way in the robot's frame, rad: that of the walls when it last saw along
     /// one, corrected by the robot's turn since.
@@ -34,7 +34,7 @@ pub struct ForwardConfig {
     /// Speed of driving, m/s.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub speed: f64,
-    /// Speed of turning in a bend, rad/s.
+    /// Turn rate in a bend, rad/s.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub turn: f64,
     /// Half the width of a corridor, m.
@@ -90,13 +90,13 @@ impl Forward {
         }
     }
 
-    /// Takes in that the robot was turned to look along a way.
+    /// Tells the layer that the robot was turned to look along a way.
     pub const fn look_along(&mut self) {
         self.way = 0.0;
     }
 
-    /// Notes that the robot has turned by `radians`, rad, counter-clockwise, since the last
-    /// [proposal](Self::propose).
+    /// Tells the layer that the robot has turned by `radians`, rad, counter-clockwise, since the
+    /// last [proposal](Self::propose).
     pub const fn turned(&mut self, radians: f64) {
         self.way -= radians;
     }
@@ -108,7 +108,8 @@ impl Forward {
         // In the middle of a bend the wall across the way is half a width ahead.
         let is_blocked = ahead < self.config.half_width;
         self.bend = match self.bend {
-            // Round when the way is free and the wall that was ahead is beside, and along the way.
+            // The bend is complete when the way is free, the wall that was ahead is beside the
+            // robot, and the robot looks along the way.
             Some(side) => {
                 let outer = match side {
                     Side::Left => right,
@@ -226,7 +227,7 @@ mod tests {
             heading += twist.angular * STEP_S;
             forward.turned(twist.angular * STEP_S);
         }
-        // Three centimetres are as much as it goes by.
+        // The robot leaves the middle by 3 cm at most.
         let most = config.to_middle * 0.03 / config.along;
         assert!((0.9 * most..=most).contains(&heading), "{heading}");
         forward.look_along();

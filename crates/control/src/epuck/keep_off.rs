@@ -12,11 +12,12 @@ use super::Echoes;
 #[cfg_attr(feature = "serde", serde(try_from = "Unchecked"))]
 #[non_exhaustive]
 pub struct KeepOff {
-    /// Between body and wall, m: where slowing down begins.
+    /// Distance between body and wall at which the robot begins to slow down, m.
     pub margin: f64,
-    /// Between body and wall, m: where all driving ahead ends. Below the margin.
+    /// Distance between body and wall below which the robot no longer drives ahead, m. It must be
+    /// below the margin.
     pub least: f64,
-    /// Speed of turning away where driving ends, rad/s.
+    /// Turn rate away from the wall where driving ends, rad/s.
     pub turn: f64,
 }
 
@@ -71,7 +72,7 @@ impl KeepOff {
     /// Corrects the proposal of the layer above.
     #[must_use]
     pub fn correct(&self, proposal: Twist, echoes: &Echoes) -> Twist {
-        // What lies behind the wheels' axle is left behind by driving ahead.
+        // Driving ahead leaves behind everything behind the wheels' axle.
         let ahead = echoes.iter().filter(|point| point.x > 0.0);
         let Some(nearest) = ahead.min_by(|a, b| a.coords.norm().total_cmp(&b.coords.norm())) else {
             return proposal;

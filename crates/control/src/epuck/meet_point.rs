@@ -12,7 +12,7 @@ use super::{Profile, RangeCurve};
 pub struct MeetPointConfig {
     /// Maximum distance of the middle from the robot, m.
     pub reach: f64,
-    /// Resolution of positions, m.
+    /// Distance between the positions that are tried, m.
     pub resolution: f64,
 }
 

@@ -17,10 +17,10 @@ pub struct Profile {
     values: Vec<f64>,
 }
 
-/// Whether something was met.
+/// Whether a bearing of the profile meets a wall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Met {
-    /// A wall.
+    /// A wall stands within reach.
     Wall,
     /// Nothing within reach.
     Nothing,

@@ -117,13 +117,13 @@ impl SegmentConfig {
 /// Kind of a place by its spaces (section 4.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlaceKind {
-    /// No space at all.
+    /// No space: the robot is enclosed.
     Closed,
     /// One space: a dead end.
     DeadEnd,
-    /// Two: on a path.
+    /// Two spaces: the robot is on a path.
     Path,
-    /// More than two.
+    /// More than two spaces: a junction.
     Junction,
 }
 
@@ -210,7 +210,7 @@ impl Part {
     }
 }
 
-/// Makes neighbours one that are both ways or both walls, round the circle.
+/// Joins neighbours that are both ways or both walls, round the circle.
 fn merge(parts: &mut Vec<Part>, count: usize, way_below: f64) {
     let alike =
         |a: &Part, b: &Part| (a.mean() < way_below) == (b.mean() < way_below) && way_below > 0.0;
@@ -349,7 +349,7 @@ pub enum SegmentError {
     TooMany {
         /// Number of segments.
         segments: usize,
-        /// Maximum number.
+        /// Maximum number of segments of a feature.
         most: usize,
     },
 }

@@ -32,14 +32,14 @@ use tolman_robot::TurnTranslate;
 /// Proposal of the layers so far for this time step of a leg.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LegStep {
-    /// The motor command.
+    /// Motor command for this time step.
     pub command: TurnTranslate,
     /// End of the leg before this step; `None` while it goes on.
     pub ends: Option<LegEnd>,
 }
 
 impl LegStep {
-    /// Stands still: the leg is over.
+    /// Returns the step that ends the leg: the robot stands still.
     #[must_use]
     pub const fn end(ends: LegEnd) -> Self {
         Self {

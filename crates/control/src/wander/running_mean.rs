@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 
 use tolman_robot::{Sounding, Soundings};
 
-/// Over how many readings the mean is taken. Paper: 3.
+/// Number of readings over which the mean is taken. Paper: 3.
 const READINGS: usize = 3;
 
 /// The mean of the last three readings of each range sensor (section 3.2), or of as many as there
@@ -16,14 +16,14 @@ pub struct RunningMean {
 #[derive(Clone, Debug)]
 struct Recent {
     latest: Sounding,
-    /// The ranges, m, in a ring.
+    /// Last ranges of the sensor, m, in a ring buffer.
     ranges: [f64; READINGS],
-    /// Number of values ever taken in.
+    /// Number of readings taken in so far.
     count: usize,
 }
 
 impl RunningMean {
-    /// Takes in the readings of a time step. Where there are none (a drop-out), those before stand.
+    /// Takes in the readings of a time step. After a drop-out, the earlier readings remain.
     pub fn take_in(&mut self, sensing: &impl Soundings) {
         for (index, sounding) in sensing.soundings().enumerate() {
             match self.sensors.get_mut(index) {

@@ -43,7 +43,7 @@ impl StopNear {
     pub fn is_clear(&self, margin: f64) -> bool {
         let factor = margin * self.give_way;
         let mut means = self.mean.means();
-        // Nothing is farther than a sensor's most.
+        // No reading exceeds a sensor's maximum.
         means.all(|mean| {
             let threshold = factor * self.limits.threshold(&mean);
             mean.range >= threshold.min(mean.max_range)

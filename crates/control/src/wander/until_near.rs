@@ -205,7 +205,7 @@ impl UntilNear {
                 break;
             }
             let most = self.config.turn;
-            // How far a full command turns it is not known before the first step.
+            // Before the first step it is unknown how far a full command turns the robot.
             let wanted =
                 per_command.map_or(FIRST_COMMAND, |rate: f64| (left.abs() / rate).min(most));
             let command = TurnTranslate {
@@ -256,7 +256,7 @@ const NEAR_ENOUGH: f64 = 0.02;
 /// Number of time steps in which a robot moves away from what it touched while it turned.
 const STEPS_FREE: u32 = 4;
 
-/// Goes straight ahead, or back, for `steps` time steps.
+/// Drives straight ahead or back for `steps` time steps, and calls `each` after every step.
 fn creep<R>(
     robot: &mut R,
     translate: f64,

@@ -55,7 +55,7 @@ pub(super) struct Folds {
 pub(super) struct Part<'a> {
     pub(super) table: &'a TableAnalysis,
     pub(super) figures: Vec<&'a Figure>,
-    /// Whether it comes first.
+    /// Whether the table is one of the main tables, which come first.
     pub(super) main: bool,
 }
 
@@ -84,7 +84,7 @@ impl Folds {
 
     /// Returns the budget for a tour of `experiments` experiments.
     pub(super) fn of_tour(experiments: usize) -> Self {
-        // Each has a heading, its source and the command that repeats it.
+        // Each experiment has a heading, its source and the command that repeats it.
         Self {
             left: STORY - 340.0 - 165.0 * experiments as f64,
             rows: 6,

@@ -94,7 +94,7 @@ fn others(told: &VerdictTally) -> String {
     format!("of the paper's values; {better}{differs} differ, {cannot_tell} cannot tell")
 }
 
-/// Returns the number of true values, and the number of all.
+/// Returns how many of the values are true, and how many values there are.
 fn tally(these: impl Iterator<Item = bool>) -> (usize, usize) {
     these.fold((0, 0), |(hold, all), holds| {
         (hold + usize::from(holds), all + 1)

@@ -1,4 +1,4 @@
-//! How to read the page.
+//! Notes on how to read the page.
 
 use maud::{Markup, html};
 

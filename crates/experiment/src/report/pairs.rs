@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::header::SIGNIFICANT;
 use crate::TableAnalysis;
 
-/// Returns every pair with the paper's p-value and ours.
+/// Returns the table of all pairs of rows, with the paper's p-value and ours.
 pub(super) fn table(analysis: &TableAnalysis) -> Markup {
     let pairwise = analysis.table.pairwise.as_ref();
     html! {

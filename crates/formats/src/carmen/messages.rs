@@ -1,4 +1,4 @@
-//! One message each.
+//! Parses the messages of a log, one per line.
 
 use tolman_geom::Pose;
 use tolman_robot::{Ring, Scan};

@@ -23,14 +23,14 @@ pub enum G2oFaultKind {
     /// The line has too few numbers, or too many.
     #[error("{word} has {found} numbers; expected {expected}")]
     Count {
-        /// The first word.
+        /// First word of the line.
         word: &'static str,
-        /// Number found.
+        /// Number of numbers found.
         found: usize,
-        /// Number expected.
+        /// Number of numbers expected.
         expected: usize,
     },
-    /// A number is invalid, NaN or infinite.
+    /// A number is not a finite number.
     #[error("`{text}` is not a finite number; measure the line again or remove it")]
     Number {
         /// Text found.
@@ -45,24 +45,24 @@ pub enum G2oFaultKind {
     /// A pose is given twice.
     #[error("pose {id} is given a second time, first in line {first}; remove one")]
     Twice {
-        /// The pose.
+        /// Id of the pose.
         id: u64,
-        /// The line in which it stood first.
+        /// Number of the line that gives the pose first.
         first: usize,
     },
-    /// There is no such pose.
+    /// The file does not contain a pose that the line names.
     #[error("it needs pose {id}, which has no VERTEX_SE2; add it")]
     NoPose {
-        /// The pose.
+        /// Id of the missing pose.
         id: u64,
     },
     /// An edge joins a pose with itself.
     #[error("the edge joins pose {id} with itself; remove it")]
     Loop {
-        /// The pose.
+        /// Id of the pose.
         id: u64,
     },
-    /// An information matrix is that of no measurement.
+    /// The information matrix is not positive definite.
     #[error("the information matrix is not positive definite; give the inverse of a covariance")]
     Information,
     /// The file ends in the middle of a line.

@@ -1,4 +1,4 @@
-//! One line of a file.
+//! Parses one line of a file.
 
 use tolman_geom::nalgebra::Matrix3;
 use tolman_geom::{Heading, Point, Pose};
@@ -98,7 +98,7 @@ fn id(text: &str) -> Result<u64, G2oFaultKind> {
         .map_err(|_| G2oFaultKind::Id { text: shown(text) })
 }
 
-/// Returns the part of a word that fits into a message.
+/// Returns the beginning of a word, short enough for a message.
 fn shown(text: &str) -> String {
     text.chars().take(40).collect()
 }

@@ -1,13 +1,13 @@
-//! A graph as the text of a file.
+//! Writes a graph as the text of a file.
 
 use core::fmt::Write;
 
 use super::{G2o, G2oEdge, G2oPose};
 
 impl G2o {
-    /// Returns the text of a file: poses, edges, and `FIX` last, since some readers stop there.
-    /// Without a fixed pose the first one is. Every number is written so that it is read as it was.
-    /// O(poses + edges).
+    /// Returns the text of a file: poses, edges, and `FIX` last, since some readers stop there. If
+    /// no pose is fixed, the first one becomes fixed. Numbers are written exactly. O(poses +
+    /// edges).
     #[must_use]
     pub fn text(&self) -> String {
         let mut text = String::new();
@@ -21,7 +21,7 @@ impl G2o {
         let fixed = self.fixed.iter().copied();
         let none = self.fixed.is_empty().then_some(first).flatten();
         for id in fixed.chain(none) {
-            // Nothing can go wrong when a string grows.
+            // Writing to a String cannot fail.
             let _ = writeln!(text, "FIX {id}");
         }
         text

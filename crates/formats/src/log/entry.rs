@@ -4,9 +4,9 @@ use tolman_robot::{Scan, TimedPose, Trajectory};
 /// One entry of a robot's log.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LogEntry {
-    /// Pose by its wheels.
+    /// Pose of the robot by its wheels.
     Odometry(LogOdometry),
-    /// Readings of its laser, with the pose by its wheels then.
+    /// Readings of the robot's laser, with the pose by its wheels at the same time.
     Scan(LogScan),
 }
 
@@ -17,7 +17,7 @@ pub struct LogOdometry {
     pub line: u64,
     /// Time of the measurement, s, by the robot's own clock.
     pub time: f64,
-    /// Dead reckoning, in a frame of its own.
+    /// Pose by dead reckoning, in the odometry's own frame.
     pub pose: Pose,
 }
 
@@ -28,15 +28,15 @@ pub struct LogVelocity {
     pub time: f64,
     /// Speed straight ahead, m/s.
     pub forward: f64,
-    /// Speed to its left, m/s.
+    /// Speed to the robot's left, m/s.
     pub left: f64,
-    /// Its turn rate, rad/s, to the left.
+    /// Turn rate, rad/s, counter-clockwise.
     pub turn: f64,
 }
 
 impl LogVelocity {
-    /// Returns dead reckoning: where these velocities have the robot at their times, each kept
-    /// until the next. It begins at the origin, looking east. O(n).
+    /// Returns the trajectory by dead reckoning: the poses at the times of the velocities, each of
+    /// which holds until the next. It begins at the origin, looking east. O(n).
     #[must_use]
     pub fn dead_reckoning(velocities: &[Self]) -> Trajectory {
         let mut pose = Pose::IDENTITY;
@@ -50,7 +50,7 @@ impl LogVelocity {
             }) = before
             {
                 let duration = (now.time - time).max(0.0);
-                // The way of an arc lies halfway between the headings at its ends.
+                // The displacement of an arc points half-way between the headings at its ends.
                 let half = Heading::from_radians(0.5 * duration * turn);
                 let way = duration * Vector::new(*forward, *left);
                 let moved = Pose::new(Point::from(half.rotate(way)), half);
@@ -72,14 +72,14 @@ pub struct LogScan {
     pub line: u64,
     /// Time of the measurement, s, by the robot's own clock.
     pub time: f64,
-    /// Dead reckoning, in a frame of its own.
+    /// Pose by dead reckoning, in the odometry's own frame.
     pub odometry: Pose,
-    /// Pose that the log has beside the odometry. In a raw log it is that of the laser by dead
-    /// reckoning, in a corrected log that of the map.
+    /// Second pose of the entry. In a raw log it is the laser's pose by dead reckoning, in a
+    /// corrected log the pose on the map.
     pub noted: Pose,
     /// Pose of the laser on the robot.
     pub robot_from_laser: Pose,
-    /// The ranges; `ring.max_range` where nothing was hit.
+    /// Ranges of the beams; `ring.max_range` where nothing was hit.
     pub scan: Scan,
 }
 

@@ -1,4 +1,4 @@
-//! The lines of a file, numbered, none of them longer than memory allows.
+//! Numbered lines of a file, with a bound on their length.
 
 use std::io::{self, BufRead, Read};
 
@@ -68,7 +68,8 @@ fn text(bytes: &[u8]) -> Line<'_> {
     core::str::from_utf8(bytes).map_or(Line::NoText, |text| Line::Text(text.trim()))
 }
 
-/// Length of a line that ends the file, bytes: the file has no lines, or never ends.
+/// Maximum number of bytes skipped in a line. A longer line ends the file: it has no lines, or
+/// never ends.
 const SKIPPED: usize = 64 << 20;
 
 /// Reads to the end of a line, and returns whether there may be another.

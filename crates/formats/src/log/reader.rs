@@ -26,7 +26,7 @@ pub struct LogReader<R> {
     lines: NumberedLines<R>,
     parameters: Parameters,
     report: LogReport,
-    /// The last time of the wheels, and of the laser: each has a clock of its own in some logs.
+    /// Last time of the odometry and of the laser, s. In some logs each has its own clock.
     times: [Option<f64>; 2],
 }
 
@@ -89,7 +89,7 @@ impl<R: BufRead> LogReader<R> {
                 return Ok(None);
             }
         };
-        // The host and the logger's time, which some logs leave out.
+        // The host and the logger's time are missing in some logs.
         if fields.left() > 2 {
             let more = format!("{} more", fields.left() - 2);
             report.met_trouble(LogTrouble::TooManyFields, line, more);
@@ -110,7 +110,7 @@ impl<R: BufRead> LogReader<R> {
         LogEntry::Scan(scan)
     }
 
-    /// Counts an entry, and looks at its time.
+    /// Counts an entry in the report, and checks its time.
     fn count(&mut self, entry: &LogEntry) {
         let (line, time, last) = match entry {
             LogEntry::Odometry(odometry) => {

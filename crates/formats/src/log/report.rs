@@ -28,10 +28,10 @@ pub struct LogReport {
     pub scans: u64,
     /// Number of scans in which no beam hit anything.
     pub empty_scans: u64,
-    /// Lines of other kinds, by their first word; of more than fifty kinds the rest stands under
+    /// Lines of other kinds, by their first word. After fifty kinds, all others are counted under
     /// `…`.
     pub other_kinds: BTreeMap<String, KindCount>,
-    /// Troubles met.
+    /// Kinds of trouble met, with the lines that had them.
     pub troubles: BTreeMap<LogTrouble, TroubleCount>,
 }
 
@@ -40,7 +40,7 @@ pub struct LogReport {
 pub struct KindCount {
     /// Number of lines.
     pub count: u64,
-    /// The first line of it, from 1.
+    /// Number of the first such line, from 1.
     pub first_line: u64,
 }
 
@@ -49,7 +49,7 @@ pub struct KindCount {
 pub struct TroubleCount {
     /// Number of lines.
     pub count: u64,
-    /// The first of the lines, from 1, each with its trouble; at most five.
+    /// First such lines, at most five: the number of the line, from 1, and its trouble.
     pub first: Vec<(u64, String)>,
 }
 
@@ -57,7 +57,7 @@ pub struct TroubleCount {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum LogTrouble {
-    /// The line ends before its fields do. Left out.
+    /// The line has too few fields. Left out.
     Cut,
     /// A field that must be a finite number is not. Left out.
     NoNumber,
@@ -65,29 +65,30 @@ pub enum LogTrouble {
     NoText,
     /// The line is longer than a megabyte. Left out.
     TooLong,
-    /// Ranges are not numbers, or negative. The scan is used; such a beam has hit nothing.
+    /// A range is negative or not a number. The scan is used, as if the beam had hit nothing.
     NoRange,
-    /// The line's time lies before that of the line above. It is used, in the order of the file.
+    /// The line's time is earlier than that of the line above. It is used, in the order of the
+    /// file.
     BackInTime,
     /// The clock jumps by more than a minute. It is used.
     ClockJump,
-    /// The file cannot be read any further. The part above is used.
+    /// The rest of the file cannot be read. The part before is used.
     EndsEarly,
-    /// The line is of a kind that is not known. Left out.
+    /// The line is of an unknown kind. Left out.
     UnknownKind,
     /// A scan at a time without odometry. Left out.
     NoOdometry,
     /// The laser's position is unknown. It is assumed to be in the robot's middle.
     NoMount,
-    /// Fields stand behind the last one. It is used without them.
+    /// The line has more fields than expected. It is used without them.
     TooManyFields,
 }
 
 /// Maximum number of kinds of lines that are distinguished.
 const MOST_KINDS: usize = 50;
-/// Number of lines that are named of each trouble.
+/// Maximum number of lines listed for each kind of trouble.
 const NAMED: usize = 5;
-/// Longer words are cut, characters.
+/// Maximum length of a word in the report, characters; longer words are cut.
 const LONGEST_WORD: usize = 24;
 
 impl LogReport {

@@ -14,7 +14,7 @@ pub enum LogError {
     File {
         /// Path of the file.
         path: PathBuf,
-        /// The system's error.
+        /// Error of the operating system.
         source: io::Error,
     },
     /// The file has no usable contents.
@@ -22,7 +22,7 @@ pub enum LogError {
     Nothing {
         /// Path of the file.
         path: PathBuf,
-        /// Text that was expected, and the text that was found instead.
+        /// Expected contents, and the contents found instead.
         what: String,
     },
 }
@@ -30,10 +30,10 @@ pub enum LogError {
 /// First bytes of a gzip file.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
-/// The first bytes of an MCAP file.
+/// First bytes of an MCAP file.
 const MCAP: [u8; 8] = *b"\x89MCAP0\r\n";
 
-/// Returns whether a file begins as an MCAP file does, in which ROS 2 keeps bags.
+/// Returns whether a file begins as an MCAP file, the format of ROS 2 bags.
 #[must_use]
 pub fn is_mcap(path: &Path) -> bool {
     let mut first = [0; MCAP.len()];

@@ -7,9 +7,9 @@ pub struct GreyMap {
     pub width: usize,
     /// Number of rows.
     pub height: usize,
-    /// The value of white, 1 … 65535.
+    /// Value of white, 1 … 65535.
     pub most: u16,
-    /// The values, row by row from the top, 0 … `most`.
+    /// Values of the pixels, row by row from the top, 0 … `most`.
     pub values: Vec<u16>,
 }
 
@@ -23,7 +23,7 @@ pub enum GreyMapError {
     /// A number is expected.
     #[error("byte {byte}: expected {what}; save the picture again as a PGM")]
     Number {
-        /// Position in the file, in bytes.
+        /// Offset in the file, bytes.
         byte: usize,
         /// Meaning of the number.
         what: &'static str,
@@ -31,11 +31,11 @@ pub enum GreyMapError {
     /// A number is out of its range.
     #[error("byte {byte}: {what} is {value}, and may be 1 to {most}; save the picture again")]
     Range {
-        /// Position in the file, in bytes.
+        /// Offset in the file, bytes.
         byte: usize,
         /// Meaning of the number.
         what: &'static str,
-        /// The value given.
+        /// Value that was given.
         value: u64,
         /// Maximum value.
         most: u64,
@@ -43,7 +43,7 @@ pub enum GreyMapError {
     /// A value is brighter than white.
     #[error("byte {byte}: value {value} is above the picture's white, {most}; correct one of them")]
     TooBright {
-        /// Position in the file, in bytes.
+        /// Offset in the file, bytes.
         byte: usize,
         /// Value that is too bright.
         value: u64,
@@ -53,11 +53,11 @@ pub enum GreyMapError {
     /// The picture ends too early.
     #[error("byte {byte}: the picture ends, with {found} of {wanted} values; copy it again")]
     TooShort {
-        /// End of the file, in bytes.
+        /// Offset of the file's end, bytes.
         byte: usize,
         /// Number of values found.
         found: usize,
-        /// Number of values there should be.
+        /// Number of values expected.
         wanted: usize,
     },
 }
@@ -95,7 +95,7 @@ impl GreyMap {
     }
 }
 
-/// A place in a picture.
+/// Reader of a picture, with its position in the bytes.
 struct Reader<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -135,7 +135,7 @@ impl Reader<'_> {
         (!digits.is_empty()).then_some(value)
     }
 
-    /// Returns the next number, which is to lie within 1 … `most`.
+    /// Returns the next number, which must lie within 1 … `most`.
     fn size<T: Copy + TryFrom<u64> + Into<u64>>(
         &mut self,
         what: &'static str,
@@ -183,10 +183,10 @@ impl Reader<'_> {
         GreyMapError::Number { byte, what }
     }
 
-    /// Returns the values as bytes, or as pairs of them with the higher one first where white is
-    /// above 255.
+    /// Returns the values, which are written as bytes. If white is above 255, a value is two bytes,
+    /// the higher one first.
     fn binary(&mut self, wanted: usize, most: u16) -> Result<Vec<u16>, GreyMapError> {
-        // One blank, and one only: the next byte may be a value that looks like another.
+        // Only one blank is skipped: the next byte may be a value that looks like a blank.
         let first = self.at + 1;
         let rest = self.bytes.get(first..).unwrap_or_default();
         let wide = if most > 255 { 2 } else { 1 };

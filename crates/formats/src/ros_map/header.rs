@@ -10,7 +10,7 @@ pub struct RosMapHeader {
     pub image: String,
     /// Size of a cell, m.
     pub resolution: f64,
-    /// The south-west corner of the grid, m.
+    /// Position of the south-west corner of the grid, m.
     pub origin: Point,
     /// Whether white means occupied.
     pub negate: bool,
@@ -70,7 +70,7 @@ pub enum RosMapHeaderError {
 
 impl RosMapHeader {
     /// Reads the YAML that map_server and map_saver write: flat keys, lists in brackets or in lines
-    /// with a dash. Keys that are not of map_server are passed over.
+    /// with a dash. Keys that are not of map_server are ignored.
     ///
     /// # Errors
     /// [`RosMapHeaderError`] with the line at fault.
@@ -89,7 +89,8 @@ impl RosMapHeader {
         })
     }
 
-    /// Returns the state that a value of the picture means: `light` is 0 for black, 1 for white.
+    /// Returns the state of a cell whose brightness in the picture is `light`: 0 for black, 1 for
+    /// white.
     #[must_use]
     pub fn cell(&self, light: f64) -> MapCell {
         let occupied = if self.negate { light } else { 1.0 - light };
@@ -103,7 +104,7 @@ impl RosMapHeader {
     }
 }
 
-/// One key with its value.
+/// A key of the file with its value.
 struct Entry {
     line: usize,
     key: String,
@@ -199,7 +200,7 @@ impl Entries {
         }
     }
 
-    /// Refuses values that mean something else than map_server's thresholds do.
+    /// Refuses a `mode` in which the thresholds mean something else: all but `trinary` and `scale`.
     fn check_mode(&self) -> Result<(), RosMapHeaderError> {
         match self.find("mode") {
             Ok(entry) if !["trinary", "scale"].contains(&entry.value.as_str()) => {

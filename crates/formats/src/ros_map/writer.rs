@@ -1,6 +1,6 @@
 use super::{MapCell, RosMap};
 
-/// Values of the cells in the picture, as in map_saver.
+/// Value of a free cell in the picture, as map_saver writes it.
 const FREE: u8 = 254;
 const UNKNOWN: u8 = 205;
 const OCCUPIED: u8 = 0;

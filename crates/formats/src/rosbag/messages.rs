@@ -1,4 +1,4 @@
-//! Messages of ROS 2 in the common data representation (CDR), as far as they are needed.
+//! Messages of ROS 2 in the common data representation (CDR): only the fields that are needed.
 
 use byteorder::{BigEndian, LittleEndian};
 use serde::Deserialize;
@@ -74,7 +74,7 @@ pub(super) fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, String> {
 }
 
 impl Stamp {
-    /// Returns the time, s.
+    /// Returns the time of the stamp, s.
     pub(super) fn seconds(&self) -> f64 {
         f64::from(self.sec) + 1e-9 * f64::from(self.nanosec)
     }
@@ -120,7 +120,7 @@ impl Transform {
     }
 }
 
-/// Returns the pose on the floor below a pose in space.
+/// Returns the pose on the floor of a pose in space: its position and heading in the plane.
 fn pose([x, y, _]: [f64; 3], orientation: [f64; 4]) -> Pose {
     Pose::new(Point::new(x, y), quaternion::heading(orientation))
 }

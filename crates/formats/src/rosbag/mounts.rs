@@ -4,14 +4,14 @@ use tolman_geom::Pose;
 
 use super::messages::Transform;
 
-/// Poses of a robot's parts on each other.
+/// Poses of a robot's parts relative to each other.
 #[derive(Default)]
 pub(super) struct Mounts {
-    /// For each part, the part that it sits on, and its pose there.
+    /// Parent of each part, with the part's pose relative to the parent.
     parents: BTreeMap<String, (String, Pose)>,
 }
 
-/// Parts that one sits on, one above the other; more are a circle.
+/// Maximum number of parents in a chain. A longer chain is a cycle.
 const MOST: usize = 32;
 
 impl Mounts {

@@ -20,7 +20,7 @@ use crate::log::{self, LogError, LogReport};
 pub struct ReadRelations {
     /// Relations that could be read, in the order of the file.
     pub relations: Vec<PoseRelation>,
-    /// Report on reading them.
+    /// Report on reading the relations.
     pub report: LogReport,
 }
 

@@ -34,7 +34,7 @@ pub fn tum(trajectory: &Trajectory) -> String {
     text
 }
 
-/// A trajectory that was read from such lines.
+/// A trajectory read from lines `time x y z qx qy qz qw`.
 ///
 /// ```
 /// use tolman_formats::ReadTrajectory;
@@ -48,7 +48,7 @@ pub fn tum(trajectory: &Trajectory) -> String {
 pub struct ReadTrajectory {
     /// Poses that could be read, in order of time.
     pub trajectory: Trajectory,
-    /// Report on reading it.
+    /// Report on reading the poses.
     pub report: LogReport,
 }
 

@@ -8,8 +8,9 @@ use super::rounding::{
 use super::{Interval, IntervalError};
 
 impl Interval {
-    /// Returns all quotients of a number here and one of `divisor` other than 0, or `None` if the
-    /// divisor is 0 alone. Where 0 lies inside or at the end of the divisor, a bound is missing.
+    /// Returns the interval of all quotients of a number in `self` and one other than 0 in
+    /// `divisor`, or `None` if the divisor is 0 alone. If 0 is inside or at the end of the divisor,
+    /// the quotient may be unbounded.
     #[must_use]
     pub fn checked_div(self, divisor: Self) -> Option<Self> {
         let Self { low, high } = divisor;
@@ -20,7 +21,7 @@ impl Interval {
             let mirrored = (low < 0.0).then(|| (-self).checked_div(-divisor));
             return mirrored.flatten();
         }
-        // The divisor is positive, or all of it but its lower bound.
+        // The divisor is positive, except that its lower bound may be 0.
         let over = |numerator: f64, quotient: fn(f64, f64) -> f64, [below, above]: [f64; 2]| {
             // The larger quotient is over the smaller divisor where the numerator is positive.
             let divisor = if numerator < 0.0 { below } else { above };
@@ -38,14 +39,16 @@ impl Interval {
         ))
     }
 
-    /// Returns all squares; narrower than the product with itself where 0 lies inside.
+    /// Returns the interval of all squares. It is narrower than the product of the interval with
+    /// itself if 0 lies inside.
     #[must_use]
     pub fn squared(self) -> Self {
         let Self { low, high } = self.abs();
         Self::from_bounds(product_down(low, low).max(0.0), product_up(high, high))
     }
 
-    /// Returns the roots of the numbers that have one, or `None` if all are negative.
+    /// Returns the interval of the square roots of all numbers ≥ 0 in it, or `None` if all are
+    /// negative.
     #[must_use]
     pub fn sqrt(self) -> Option<Self> {
         (self.high >= 0.0).then(|| {
@@ -56,7 +59,7 @@ impl Interval {
         })
     }
 
-    /// Returns all absolute values.
+    /// Returns the interval of all absolute values.
     #[must_use]
     pub fn abs(self) -> Self {
         if self.low >= 0.0 {
@@ -68,7 +71,7 @@ impl Interval {
         }
     }
 
-    /// Returns all numbers within `margin` of a number here.
+    /// Returns the interval widened by `margin` at both ends.
     ///
     /// # Errors
     /// If `margin` is negative or not a number.

@@ -9,17 +9,17 @@ pub enum IntervalError {
         "the bounds [{low}, {high}] are not both numbers; give numbers, infinite where there is no bound"
     )]
     NotANumber {
-        /// The lower bound.
+        /// Lower bound, as given.
         low: f64,
-        /// The upper bound.
+        /// Upper bound, as given.
         high: f64,
     },
     /// No number lies between the bounds.
     #[error("no number lies in [{low}, {high}]; give the lower bound first")]
     Empty {
-        /// The lower bound.
+        /// Lower bound, as given.
         low: f64,
-        /// The upper bound.
+        /// Upper bound, as given.
         high: f64,
     },
     /// A margin is negative.

@@ -15,8 +15,8 @@ use rounding::{sum_down, sum_up};
 ///
 /// Arithmetic is *sound*: if x lies in `a` and y in `b`, then x + y lies in `a + b`, whatever was
 /// rounded on the way. Bounds that are not exact are rounded outwards. It is *monotone*: narrower
-/// operands give no wider result (sine and cosine up to their last digits). What cannot be (an
-/// intersection of intervals apart, the root of a negative number) is `None`.
+/// operands give no wider result (sine and cosine up to their last digits). A result that does not
+/// exist is `None`: the intersection of disjoint intervals, or the root of a negative number.
 ///
 /// ```
 /// use tolman_geom::Interval;
@@ -32,7 +32,8 @@ use rounding::{sum_down, sum_up};
 /// # Ok::<(), tolman_geom::IntervalError>(())
 /// ```
 ///
-/// Source: the diktiometry of Engelson and McDermott keeps every position and heading so.
+/// Source: the diktiometry of Engelson and McDermott keeps every position and heading as such an
+/// interval.
 #[derive(Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(try_from = "Bounds", into = "Bounds"))]
@@ -42,10 +43,10 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// Nothing but 0.
+    /// The interval that holds only 0.
     pub const ZERO: Self = Self::from_bounds(0.0, 0.0);
 
-    /// All numbers: nothing is known.
+    /// The interval of all numbers: nothing is known.
     pub const UNBOUNDED: Self = Self::from_bounds(f64::NEG_INFINITY, f64::INFINITY);
 
     /// Returns the interval from `low` to `high`.
@@ -70,7 +71,7 @@ impl Interval {
         Self::new(value, value)
     }
 
-    /// Returns all numbers within `margin` of `middle`.
+    /// Returns the interval of all numbers within `margin` of `middle`.
     ///
     /// # Errors
     /// If `margin` is negative or one of them is not a number.
@@ -87,7 +88,7 @@ impl Interval {
         Self { low, high }
     }
 
-    /// Returns one number that is known to be finite.
+    /// Returns the interval that holds only one number, which is known to be finite.
     pub(crate) const fn point(value: f64) -> Self {
         Self::from_bounds(value, value)
     }

@@ -4,7 +4,7 @@
 //! A result rounded to nearest lies within half a unit in the last place of the exact one, so its
 //! neighbour bounds it. Sums that are exact are kept: what adds up grows by no more than it must.
 //!
-//! An infinite operand stands for a bound that is not there, forever larger finite numbers, so 0
+//! An infinite operand stands for a missing bound, that is for finite numbers of any size. So 0
 //! times it is 0.
 
 /// Returns at most a + b.

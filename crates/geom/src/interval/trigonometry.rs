@@ -1,7 +1,7 @@
-//! Sine and cosine, without trust in anybody's libm.
+//! Sine and cosine of intervals, without a libm, whose rounding errors are unknown.
 //!
-//! An angle is brought near 0 by a multiple of π/2 that is itself an interval. The Taylor series is
-//! summed in interval arithmetic, and its remainder is added.
+//! An angle is reduced to near 0 by a multiple of π/2 that is itself an interval. The Taylor series
+//! is summed in interval arithmetic, and its remainder is added.
 
 use core::f64::consts::{FRAC_PI_2, TAU};
 
@@ -41,7 +41,7 @@ impl Interval {
         multiple_of_half_pi(4)
     }
 
-    /// Returns sine and cosine.
+    /// Returns the sines and the cosines of all angles in the interval, in radians.
     pub(crate) fn sines(self) -> (Self, Self) {
         // Sine and cosine of the multiples of half π.
         const EXTREMES: [(f64, f64); 4] = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)];

@@ -9,7 +9,7 @@ use super::lines::{Line, Lines, Place};
 use super::{MazeError, MazeFault, Parsed};
 use crate::{Cell, CheckError, Direction, Grid, Maze};
 
-/// Characters from one post to the next.
+/// Number of characters from one post to the next.
 const PITCH: usize = 4;
 
 /// Returns whether a drawing begins with this line, which has no blanks before it. Double borders
@@ -135,7 +135,7 @@ impl Reader {
         row.nothing_beyond(grid.width())
     }
 
-    /// Takes a wall or opening, which `row` shows on that side of `cell`.
+    /// Records a wall or an opening, as `row` shows it on the given side of `cell`.
     fn wall(
         &mut self,
         row: &Row<'_>,
@@ -226,7 +226,7 @@ fn rows<'a>(lines: &mut Lines<'a>) -> Result<Vec<Row<'a>>, MazeError> {
         if text.starts_with('\t') {
             return Err(line.fault(indent, MazeFault::Tab));
         }
-        // A remark below the drawing may begin with an o, too: `begins` looks at the next
+        // A remark below the drawing may also begin with an `o`: `begins` looks at the next
         // character.
         if begins(text) || text.starts_with(['|', ' ']) {
             rows.push(Row { line, indent });

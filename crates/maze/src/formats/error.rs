@@ -5,17 +5,17 @@ use core::fmt;
 use super::Format;
 use crate::{Cell, CheckError, Direction, Grid};
 
-/// Reason why a text is not a maze, and where.
+/// Reason why a text is not a maze, with the place of the fault.
 ///
 /// The text has no file name; the caller that opened the file puts it before the message.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}, column {column}: {fault}")]
 pub struct MazeError {
-    /// The line, counted from 1.
+    /// Number of the line, from 1.
     pub line: usize,
-    /// The character in the line, counted from 1.
+    /// Number of the character in the line, from 1.
     pub column: usize,
-    /// The fault found there.
+    /// Fault found at that place.
     pub fault: MazeFault,
 }
 
@@ -29,7 +29,7 @@ impl MazeError {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MazeFault {
-    /// Nothing but blanks.
+    /// The text is empty or blank.
     #[error("the file is empty: expected a maze")]
     Empty,
     /// The first line does not begin a maze file.
@@ -39,14 +39,14 @@ pub enum MazeFault {
          lines `X Y N E S W`"
     )]
     UnknownFormat {
-        /// The beginning of the line.
+        /// Beginning of the line.
         found: String,
     },
 
     /// A character of a drawing is in the wrong place.
     #[error("found {found:?}: expected {expected}")]
     Character {
-        /// The character, a line feed at the end of a line.
+        /// Character found: a line feed at the end of a line.
         found: char,
         /// Text that is allowed there, in words.
         expected: &'static str,
@@ -61,9 +61,9 @@ pub enum MazeFault {
         width * 4 + 1
     )]
     TooShort {
-        /// Characters of the line.
+        /// Number of characters in the line.
         found: usize,
-        /// Number of columns of the first line.
+        /// Number of columns that the drawing's first line has posts for.
         width: usize,
     },
     /// A line extends beyond the east border.
@@ -72,7 +72,7 @@ pub enum MazeFault {
          (one every 4 characters); make all lines {} characters long", width * 4 + 1
     )]
     BeyondBorder {
-        /// Number of columns of the first line.
+        /// Number of columns that the drawing's first line has posts for.
         width: u16,
     },
     /// A drawing without its last line.
@@ -84,19 +84,19 @@ pub enum MazeFault {
         /// Number of lines of the drawing.
         lines: usize,
     },
-    /// A second `S`.
+    /// The drawing has a second `S`.
     #[error("the start is marked twice, in {first} and in {second}: keep one `S`")]
     TwoStarts {
-        /// The cell of the first mark.
+        /// Cell of the first mark.
         first: Cell,
-        /// The cell of this one.
+        /// Cell of the second mark.
         second: Cell,
     },
 
-    /// Something that is not the number that belongs there.
+    /// A text is not the number that belongs in its place.
     #[error("found `{found}`: expected {expected}")]
     Number {
-        /// The text that stands there.
+        /// Text found there.
         found: String,
         /// Text that is allowed there, in words.
         expected: &'static str,
@@ -113,13 +113,13 @@ pub enum MazeFault {
         /// Advice on the repair.
         repair: &'static str,
     },
-    /// A maze beyond [`Grid::MAX_SIDE`].
+    /// A side of the maze is longer than [`Grid::MAX_SIDE`].
     #[error(
         "a side of {side} cells is too long: mazes of up to {} are read",
         Grid::MAX_SIDE
     )]
     TooLarge {
-        /// The side asked for.
+        /// Length of the longer side, cells.
         side: usize,
     },
     /// Two cells contradict each other about the wall between them.
@@ -128,13 +128,13 @@ pub enum MazeFault {
          agree", side(*open), side(!*open), direction.opposite()
     )]
     Disagree {
-        /// The cell at this place.
+        /// Cell at this place.
         cell: Cell,
-        /// The side in question.
+        /// Side of `cell` on which the wall is.
         direction: Direction,
-        /// Whether `cell` claims that it is open.
+        /// Whether the text calls that side of `cell` open.
         open: bool,
-        /// The cell beyond.
+        /// Cell on the other side of the wall.
         neighbour: Cell,
     },
     /// A cell listed twice.
@@ -151,9 +151,9 @@ pub enum MazeFault {
         grid.width(), grid.height()
     )]
     Missing {
-        /// The first such cell from the south-west, row by row.
+        /// First missing cell, row by row from the south-west.
         cell: Cell,
-        /// The size the other cells give.
+        /// Size of the maze by the cells that are listed.
         grid: Grid,
     },
 
@@ -166,13 +166,13 @@ pub enum MazeFault {
     /// A line before the drawing that is not `key = value`.
     #[error("found `{found}`: expected `key = value`, a comment after `#`, or the drawing")]
     NotAKey {
-        /// The beginning of the line.
+        /// Beginning of the line.
         found: String,
     },
     /// A key that no maze file has.
     #[error("`{found}` is not a key of a maze file: use {}", super::tolman::KEYS.join(", "))]
     UnknownKey {
-        /// The key.
+        /// Key that was given.
         found: String,
     },
     /// A key given twice.
@@ -183,12 +183,12 @@ pub enum MazeFault {
         /// Line of its first mention.
         first_line: usize,
     },
-    /// A value its key cannot have.
+    /// A value that its key cannot have.
     #[error("found `{found}` for `{key}`: expected {expected}")]
     Value {
         /// Name of the key.
         key: &'static str,
-        /// Its value.
+        /// Value that was given.
         found: String,
         /// Values it may have.
         expected: &'static str,
@@ -196,9 +196,9 @@ pub enum MazeFault {
     /// The header and the drawing have different starts.
     #[error("`start` is {header}, but the drawing has its `S` in {drawing}: drop one of the two")]
     StartDisagrees {
-        /// The cell of the header.
+        /// Start by the header.
         header: Cell,
-        /// The cell of the mark.
+        /// Start by the mark in the drawing.
         drawing: Cell,
     },
     /// The header and the drawing have different destinations.
@@ -208,19 +208,19 @@ pub enum MazeFault {
         Cells(drawing)
     )]
     DestinationDisagrees {
-        /// The cells of the header.
+        /// Destination by the header.
         header: Vec<Cell>,
-        /// The cells of the marks.
+        /// Destination by the marks in the drawing.
         drawing: Vec<Cell>,
     },
     /// Text below the drawing of a tolman maze.
     #[error("found `{found}` below the drawing: put it above, or after a `#`")]
     BelowDrawing {
-        /// The beginning of the line.
+        /// Beginning of the line.
         found: String,
     },
 
-    /// The maze has no fault of format, but cannot be used.
+    /// The text is well-formed, but its maze cannot be used.
     #[error(transparent)]
     Maze(#[from] CheckError),
 }
@@ -247,38 +247,38 @@ pub enum WriteError {
     /// No format holds a maze with an open border or with marks outside.
     #[error(transparent)]
     Maze(#[from] CheckError),
-    /// A maze beyond [`Grid::MAX_SIDE`] could not be read again.
+    /// A side of the maze is longer than [`Grid::MAX_SIDE`], so the text could not be read again.
     #[error(
         "a side of {side} cells is too long: mazes of up to {} are written",
         Grid::MAX_SIDE
     )]
     TooLarge {
-        /// The longer side.
+        /// Length of the longer side, cells.
         side: u16,
     },
-    /// The numbers know even squares only.
+    /// The format [`Format::Numbers`] holds only squares of even size.
     #[error(
         "the format `{format}` cannot hold a maze of {} × {} cells: it needs a square of even size; \
          write it as `{}`", grid.width(), grid.height(), Format::Tolman
     )]
     Shape {
-        /// The format asked for.
+        /// Format to write.
         format: Format,
-        /// The size of the maze.
+        /// Size of the maze.
         grid: Grid,
     },
-    /// The start would be lost.
+    /// The format cannot hold the start.
     #[error(
         "the format `{format}` cannot hold {}: {}; write it as `{}`",
         Start(*start), start_rule(*format), Format::Tolman
     )]
     Start {
-        /// The format asked for.
+        /// Format to write.
         format: Format,
-        /// The start of the maze.
+        /// Start of the maze: cell and heading.
         start: Option<(Cell, Direction)>,
     },
-    /// The goals would be lost.
+    /// The format cannot hold the goals.
     #[error(
         "the format `{format}` cannot hold the goals {}: they are always the middle, {}; write it as \
          `{}`",
@@ -287,11 +287,11 @@ pub enum WriteError {
         Format::Tolman
     )]
     Goals {
-        /// The format asked for.
+        /// Format to write.
         format: Format,
-        /// The goals of the maze.
+        /// Goals of the maze.
         goals: Vec<Cell>,
-        /// The goals the format stands for.
+        /// Goals that every maze of the format has.
         middle: Vec<Cell>,
     },
     /// A name that does not fit one line.
@@ -306,16 +306,16 @@ pub enum WriteError {
     /// A corridor width outside [`MazeFile::CORRIDOR_WIDTHS`](crate::MazeFile::CORRIDOR_WIDTHS).
     #[error("the corridor width is {width} m; give 0.001 to 1000 m")]
     CorridorWidth {
-        /// The width, m.
+        /// Width that was given, m.
         width: f64,
     },
 }
 
-/// The name of no [`Format`].
+/// The name is not the name of a [`Format`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{name}` is not a maze format: use numbers, mazefiles, num or tolman")]
 pub struct UnknownFormat {
-    /// The name as given.
+    /// Name that was given.
     pub name: String,
 }
 
@@ -324,8 +324,8 @@ pub(super) fn too_large(grid: Grid) -> Option<u16> {
     Some(grid.width().max(grid.height())).filter(|side| *side > Grid::MAX_SIDE)
 }
 
-/// Returns enough of a text to recognize it: files can have lines of any length, and control
-/// characters that a terminal would obey.
+/// Returns the beginning of a text without control characters. Lines of a file may have any length,
+/// and a terminal would obey control characters.
 pub(super) fn excerpt(text: &str) -> String {
     const LIMIT: usize = 40;
     let mut short = String::new();

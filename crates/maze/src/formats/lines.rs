@@ -37,10 +37,10 @@ impl Default for Place {
     }
 }
 
-/// One line without its end.
+/// A line of a text, without its end.
 #[derive(Clone, Copy)]
 pub(super) struct Line<'a> {
-    /// Counted from 1.
+    /// Number of the line, from 1.
     pub(super) number: usize,
     pub(super) text: &'a str,
 }
@@ -74,8 +74,8 @@ impl<'a> Line<'a> {
     }
 }
 
-/// Returns the lines of a text. They end with LF or CR LF, or with CR in a text without any LF. A
-/// leading byte order mark is dropped.
+/// The lines of a text, with their numbers. They end with LF or CR LF, or with CR in a text without
+/// any LF. A leading byte order mark is dropped.
 #[derive(Clone)]
 pub(super) struct Lines<'a> {
     rest: core::str::Split<'a, char>,

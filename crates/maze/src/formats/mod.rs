@@ -89,8 +89,8 @@ pub enum Format {
     /// The `.num` files of the simulator mms: a line `X Y N E S W` for each cell, 1 where a wall
     /// stands. The start is the south-west cell, looking north; the goal is the middle.
     Num,
-    /// tolman's own file for corridor worlds: `key = value` lines, then a drawing. All of
-    /// `docs/maze-format.md`.
+    /// tolman's own file for corridor worlds: `key = value` lines, then a drawing.
+    /// `docs/maze-format.md` describes it in full.
     Tolman,
 }
 

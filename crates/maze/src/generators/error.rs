@@ -22,7 +22,7 @@ pub enum GenerateError {
         /// The share asked for.
         share: f64,
     },
-    /// No room has such sides.
+    /// No room with such sides fits into the maze.
     #[error(
         "rooms with sides of {smallest} to {largest} cells do not fit a maze of {width} × {height}: \
          the shortest is at least 1, the longest no shorter, and no longer than the maze either way"
@@ -42,7 +42,7 @@ pub enum GenerateError {
         "none of {tries} drawings has all features that were asked for: ask for fewer dead ends or longer corridors, or a larger maze"
     )]
     Features {
-        /// Drawings tried.
+        /// Number of drawings tried.
         tries: u32,
     },
     /// A drawing does not fit into this few cells.
@@ -51,7 +51,7 @@ pub enum GenerateError {
         least.0, least.1
     )]
     Small {
-        /// The name of the drawing.
+        /// Name of the drawing.
         drawing: &'static str,
         /// Number of columns asked for.
         width: u16,

@@ -55,8 +55,8 @@ fn mark(maze: &mut Maze) {
     maze.set_goals(goals);
 }
 
-/// Opens a corridor of this many cells beyond `from`, and returns where it ends; at the border at
-/// the latest.
+/// Opens a corridor of `cells` cells beyond `from` and returns its last cell. The corridor ends
+/// earlier at the border.
 fn carved(maze: &mut Maze, from: Cell, direction: Direction, cells: u16) -> Cell {
     let grid = maze.grid();
     let mut here = from;

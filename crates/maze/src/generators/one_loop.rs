@@ -10,8 +10,8 @@ use crate::{Cell, Direction, Grid, Maze};
 ///
 /// Junctions, bends and dead ends lie on lines of a lattice, two or three cells apart. A random
 /// tree grows over it, one random corridor at a time, and one more corridor closes the loop. Trees
-/// are drawn until one has what is asked for. The goal lies in the bottom right corner; no start is
-/// marked, and cells between the corridors are closed. O(tries · cells).
+/// are drawn until one has the features asked for. The goal lies in the bottom right corner; no
+/// start is marked, and cells between the corridors are closed. O(tries · cells).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OneLoop {
     /// Number of columns, at least 3.
@@ -25,7 +25,7 @@ pub struct OneLoop {
     pub short: u32,
 }
 
-/// Trees that are tried.
+/// Maximum number of trees that are tried.
 const TRIES: u32 = 10_000;
 
 impl OneLoop {
@@ -86,8 +86,8 @@ fn lines(side: u16, rng: &mut impl Rng) -> Vec<u16> {
     lines
 }
 
-/// Returns a tree over all crossings of the lines that grows by a random opening at a time, and one
-/// opening more.
+/// Returns a random spanning tree over all crossings of the lines, with one more opening, which
+/// closes a loop.
 fn tree_with_loop(columns: &[u16], rows: &[u16], rng: &mut impl Rng) -> Maze {
     let grid = Grid::new(columns.len() as u16, rows.len() as u16);
     let mut maze = Maze::solid(grid);
@@ -115,7 +115,7 @@ fn tree_with_loop(columns: &[u16], rows: &[u16], rng: &mut impl Rng) -> Maze {
 /// A cell and the direction in which its neighbour lies.
 type End = (Cell, Direction);
 
-/// Returns every two neighbours once, each with the direction to the other.
+/// Returns every pair of neighbours once, each cell with the direction to the other.
 fn between(grid: Grid) -> Vec<[End; 2]> {
     let pair = |cell, direction: Direction| {
         let next = grid.neighbour(cell, direction)?;
@@ -127,7 +127,7 @@ fn between(grid: Grid) -> Vec<[End; 2]> {
         .collect()
 }
 
-/// Returns the same corridors in cells.
+/// Returns the maze of cells whose corridors are those of the lattice.
 fn stretched(lattice: &Maze, columns: &[u16], rows: &[u16], grid: Grid) -> Maze {
     let place = |cell: Cell| Cell::new(columns[usize::from(cell.x)], rows[usize::from(cell.y)]);
     let mut maze = Maze::solid(grid);

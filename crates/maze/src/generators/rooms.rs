@@ -126,7 +126,7 @@ impl Rooms {
 
 const START: Cell = Cell::new(0, 0);
 
-/// A rectangle of cells, from the south-west one on.
+/// A rectangle of cells, from its south-west corner.
 struct Room {
     corner: Cell,
     width: u16,
@@ -153,7 +153,7 @@ impl Room {
             .map(move |cell| Cell::new(x + cell.x, y + cell.y))
     }
 
-    /// Removes the walls within.
+    /// Removes the walls within the room.
     fn open(&self, maze: &mut Maze) {
         for cell in self.cells() {
             if cell.x > self.corner.x {

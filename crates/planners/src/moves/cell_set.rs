@@ -4,11 +4,11 @@ use tolman_maze::Cell;
 /// moved or compared at once.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct CellSet<const N: usize> {
-    /// Cells by y; bit x.
+    /// Rows of cells, by y. Bit x is the cell in column x.
     pub(super) rows: [u32; N],
 }
 
-/// Masks of one cell by x. A shift by x would do, but not for several cells at once.
+/// Masks of one cell, by x. A shift by x would give the same, but not for several cells at once.
 const BITS: [u32; 32] = {
     let (mut bits, mut x) = ([1; 32], 1);
     while x < 32 {
@@ -107,7 +107,7 @@ impl<const N: usize> CellSet<N> {
         self.with(other, |row, other| row & !other)
     }
 
-    /// Returns two sets, put together row by row.
+    /// Returns the set whose rows `each` makes from the rows of the two sets.
     #[inline(always)]
     fn with(mut self, other: &Self, each: impl Fn(u32, u32) -> u32) -> Self {
         for (row, other) in self.rows.iter_mut().zip(&other.rows) {
@@ -129,7 +129,7 @@ impl<const N: usize> CellSet<N> {
 /// The cells of a [`CellSet`].
 #[derive(Clone, Debug)]
 pub(super) struct Cells<const N: usize> {
-    /// The remaining cells.
+    /// Rows of the cells that are still to come.
     rows: [u32; N],
     y: u16,
 }
@@ -149,7 +149,7 @@ impl<const N: usize> Iterator for Cells<N> {
         }
     }
 
-    /// Returns all at once, which is faster than one by one.
+    /// Folds over all cells in one loop, which is faster than cell by cell.
     fn fold<B, F: FnMut(B, Cell) -> B>(self, init: B, mut each: F) -> B {
         let mut folded = init;
         for (y, row) in (0..).zip(self.rows) {

@@ -15,17 +15,17 @@ use crate::{TooLarge, Unknown};
 pub(super) struct Chart<const N: usize> {
     pub(super) start: Cell,
     pub(super) goals: CellSet<N>,
-    /// Sides that may be open.
+    /// Sides that are open or unknown.
     pub(super) hoped: Sides<N>,
-    /// The sides known to be open.
+    /// Sides known to be open.
     pub(super) certain: Sides<N>,
-    /// Steps from the start, hoped for.
+    /// Fewest steps from the start to every cell over the `hoped` sides.
     pub(super) from_start: MoveMap<N>,
-    /// Steps to the goal, hoped for.
+    /// Fewest steps from every cell to the goal over the `hoped` sides.
     pub(super) to_goal: MoveMap<N>,
-    /// The paper's close path: steps of the best run that is certain.
+    /// Length of the paper's closed path: steps of the best run over `certain` sides.
     pub(super) closed: Option<u16>,
-    /// A fingerprint of the sides that were [looked at](Self::look) since the chart was made.
+    /// Fingerprint of all sides [looked at](Self::look) since the chart was made.
     pub(super) learned: u64,
 }
 
@@ -47,7 +47,8 @@ impl<const N: usize> Chart<N> {
         })
     }
 
-    /// Returns the paper's open path: steps of the best run that can be hoped for.
+    /// Returns the length of the paper's open path: steps of the best run over sides that are open
+    /// or unknown.
     pub(super) fn open(&self) -> Option<u16> {
         self.to_goal.moves(self.start)
     }
@@ -69,7 +70,7 @@ impl<const N: usize> Chart<N> {
     }
 
     /// Returns the steps of the best run from the start to the goal that drives over the `side` of
-    /// `cell`. At most six leaps do, each in both directions.
+    /// `cell`. At most six leaps cross a side, each in both directions.
     pub(super) fn run_through(&self, cell: Cell, side: Direction) -> Option<u16> {
         let mut best: Option<u16> = None;
         self.hoped.leaps_over(cell, side, |one, other| {
@@ -86,7 +87,8 @@ impl<const N: usize> Chart<N> {
     }
 
     /// Returns a way of fewest steps from `at` to `target` on known ground, or `None` if none leads
-    /// there. Of equal ways it is one with much to see at its last stops.
+    /// there. Of equally short ways it prefers one from whose last stops many unknown sides are
+    /// visible.
     pub(super) fn course(&self, target: Cell, at: Cell) -> Option<Course> {
         let mut course = Course::to(target);
         if self.leap_to(target, at).is_some() {
@@ -142,8 +144,8 @@ impl<const N: usize> Chart<N> {
         Some(driven)
     }
 
-    /// Returns whether a goal is across a side, or the way leads on from there: a run over a newly
-    /// known side has to continue.
+    /// Returns whether a side leads into a goal or to a cell from which a way leads on. Only such a
+    /// side can be part of a run.
     fn joins(&self, at: Cell, side: Direction) -> bool {
         let Some(across) = at.beyond(side) else {
             return false;
@@ -154,7 +156,8 @@ impl<const N: usize> Chart<N> {
         self.goals.contains(across) || onward.any(|on| self.certain.contains(across, on))
     }
 
-    /// Looks to the four sides, each as far as the next wall. Returns whether anything was new.
+    /// Records what is visible from `from` to the four sides, each as far as the next wall. Returns
+    /// whether any side was unknown before.
     fn look(&mut self, truth: &Sides<N>, from: Cell) -> bool {
         let (mut news, mut shorter) = (false, false);
         let limit = self.closed.unwrap_or(u16::MAX);
@@ -210,7 +213,7 @@ pub(super) struct Course {
 }
 
 impl Course {
-    /// Number of stops that are kept.
+    /// Maximum number of stops kept.
     const MOST: usize = 32;
 
     /// Returns the way of one leap.
@@ -221,7 +224,7 @@ impl Course {
         }
     }
 
-    /// Notes that the way leads to `stop` after `steps` steps.
+    /// Records that the way leads to `stop` after `steps` steps.
     fn pass(&mut self, stop: Cell, steps: u16) {
         if let Some(slot) = self.stops.get_mut(usize::from(steps) - 1) {
             *slot = stop;

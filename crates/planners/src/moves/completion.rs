@@ -5,16 +5,17 @@ use super::sides::Sides;
 use super::split_mix::SplitMix;
 use super::wall_odds::{GoalSide, log_odds};
 
-/// Draws mazes at random among those that agree with all that is known.
+/// Draws random mazes that agree with all known walls.
 ///
-/// The unknown sides are drawn one by one, in an order by chance, each by its [`log_odds`] given
-/// those around it that are known or drawn already.
+/// The unknown sides are drawn one by one in random order. The probability of each follows from
+/// [`log_odds`], given the sides around it that are known or already drawn.
 pub(super) struct Completions<'a, const N: usize> {
     chart: &'a Chart<N>,
-    /// The unknown sides, as many as there are.
+    /// Unknown sides, in the order in which they are drawn. Only the first `unknown` entries count.
     order: [[[(Cell, Direction); 2]; N]; N],
     unknown: usize,
-    /// Kind of an unknown side that leads into the goal, by whether another is known to be open.
+    /// Kind of an unknown side that leads into the goal: it depends on whether another such side is
+    /// known to be open.
     entrance: GoalSide,
     rng: SplitMix,
 }

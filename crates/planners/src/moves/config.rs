@@ -31,8 +31,8 @@ pub struct MoveExplorerConfig {
 }
 
 impl MoveExplorerConfig {
-    /// Returns the only configuration of all our figures. `docs/micromouse.md` explains how it was
-    /// chosen.
+    /// Returns the configuration with which all figures of the project are made.
+    /// `docs/micromouse.md` explains how it was chosen.
     #[must_use]
     pub const fn tuned() -> Self {
         Self {
@@ -64,7 +64,7 @@ impl MoveExplorerConfig {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("`{field}` is {value}; give {range}")]
 pub struct MoveExplorerConfigError {
-    /// The name of the field.
+    /// Name of the field.
     pub field: &'static str,
     /// Value that was given.
     pub value: f32,

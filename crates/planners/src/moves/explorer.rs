@@ -45,7 +45,7 @@ use crate::TooLarge;
 #[derive(Clone, Debug)]
 pub struct MoveExplorer<const N: usize> {
     config: MoveExplorerConfig,
-    /// The power of the distance, of the first distances.
+    /// The powers of the first 16 distances, in steps: each distance to the exponent `nearness`.
     distances: [f32; 16],
     start: Cell,
     goal: Goal,
@@ -67,13 +67,13 @@ pub enum MoveDecision {
     /// The mouse was at a goal, and no run from the start takes fewer steps than the best known
     /// one, whatever the unknown walls are. Its length:
     Finished {
-        /// Number of steps.
+        /// Number of steps of the run.
         moves: u16,
     },
     /// The mouse was at a goal, and to look on is expected to cost more than it gains
     /// ([`WorthConfig`](super::WorthConfig)). The length of the best known run:
     Enough {
-        /// Number of steps.
+        /// Number of steps of the run.
         moves: u16,
     },
     /// No way leads to a goal.
@@ -82,13 +82,13 @@ pub enum MoveDecision {
 
 /// Task of an explorer.
 pub(super) enum Task {
-    /// Nothing to weigh.
+    /// The decision is made: nothing has to be weighed.
     Decided(MoveDecision),
     /// Drive to this cell.
     DriveTo(Cell),
     /// The mouse was at the goal and knows a run of this length: look for a better one.
     Prove {
-        /// Number of steps.
+        /// Number of steps of the known run.
         closed: u16,
     },
 }
@@ -171,10 +171,10 @@ impl<const N: usize> MoveExplorer<N> {
                 return Task::Decided(MoveDecision::Finished { moves });
             }
             (Some(closed), Goal::Visited) => return Task::Prove { closed },
-            // Sooner or later it has to be there, and it is seldom nearer than now.
+            // The mouse has to visit the goal at some time, and it is seldom nearer than now.
             (Some(_), Goal::Ahead) => nearest_goal(chart, at),
             (None, _) => {
-                // It is not known yet which runs matter besides the best ones.
+                // Only the best runs are known to matter so far.
                 let proofs = self.proofs::<1>(chart, at, open + 1);
                 let early = proofs.best_above(self.config.early_proof);
                 early.or_else(|| self.best_approach(chart, at))
@@ -198,7 +198,7 @@ impl<const N: usize> MoveExplorer<N> {
                     let onward = f32::from(onward) + config.unknown_wall * f32::from(unknown);
                     config.sight * seen - config.known_step * f32::from(moves) - onward
                 };
-                // Unknown walls make no stop better, and to count them takes longest.
+                // Unknown walls make no stop better, and counting them takes the most time.
                 if score(0) < stops.lowest() {
                     continue;
                 }
@@ -240,13 +240,13 @@ impl<const N: usize> MoveExplorer<N> {
         near.unwrap_or_else(|| libm::powf(f32::from(moves), self.config.nearness))
     }
 
-    /// Returns whether a look around from `cell` can tell anything about runs of less than `limit`
-    /// steps.
+    /// Returns whether a look around from `cell` can reveal anything about runs of less than
+    /// `limit` steps.
     pub(super) fn tells(&self, chart: &Chart<N>, cell: Cell, limit: u16) -> bool {
         self.told(chart, cell, limit) > 0.0
     }
 
-    /// Returns the worth of a look around from `cell`: how much it tells about runs of less than
+    /// Returns the gain of a look around from `cell`: how much it reveals about runs of less than
     /// `limit` steps.
     fn told(&self, chart: &Chart<N>, cell: Cell, limit: u16) -> f32 {
         let mut told = 0.0;

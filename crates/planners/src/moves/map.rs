@@ -19,7 +19,7 @@ use crate::Passages;
 #[derive(Clone, Debug)]
 pub struct MoveMap<const N: usize> {
     moves: [[u16; N]; N],
-    /// Number of cells at most n steps away, by n, below `levels`.
+    /// Number of cells at most n steps away, for each n below `levels`.
     within: [[u16; N]; N],
     levels: u16,
     /// First and last number of steps that sides closed since the last mending put in doubt.
@@ -37,8 +37,8 @@ impl<const N: usize> MoveMap<N> {
         stale: None,
     };
 
-    /// Returns the map of steps to `targets`, by breadth-first search leap by leap. Targets outside
-    /// of `N` × `N` cells are left out. O(N²).
+    /// Returns the map of the fewest steps to `targets`, by a breadth-first search over leaps.
+    /// Targets outside of `N` × `N` cells are left out. O(N²).
     ///
     /// A target counts only where a leap ends, like the goal in the paper's rules.
     #[must_use]
@@ -46,15 +46,16 @@ impl<const N: usize> MoveMap<N> {
         Self::over(&Sides::from(passages), &CellSet::of(targets))
     }
 
-    /// Returns the map of steps to `targets`. All cells that are equally far away are computed at
-    /// once.
+    /// Returns the map of the fewest steps to `targets`. It computes all cells at the same distance
+    /// at once.
     pub(super) fn over(sides: &Sides<N>, targets: &CellSet<N>) -> Self {
         let mut map = Self::BLANK;
         map.spread(sides, Wave::new(*targets), |_| false);
         map
     }
 
-    /// Returns a map to `target` that may end where `from` is reached.
+    /// Returns a map of the fewest steps to `target`. The search may end as soon as it reaches
+    /// `from`.
     pub(super) fn between(sides: &Sides<N>, target: Cell, from: Cell) -> Self {
         let mut map = Self::BLANK;
         let wave = Wave::new(CellSet::of([target]));
@@ -62,7 +63,7 @@ impl<const N: usize> MoveMap<N> {
         map
     }
 
-    /// Numbers the cells, from the front of `wave` on, until all doubtful cells are certain again.
+    /// Assigns distances to cells, from the front of `wave` on, until no cell is in doubt any more.
     fn spread(
         &mut self,
         sides: &Sides<N>,
@@ -111,8 +112,8 @@ impl<const N: usize> MoveMap<N> {
                 Ordering::Equal => return,
                 Ordering::Greater => (head, tail),
             };
-            // The farther one was a step farther than the nearer one by this leap. It still is, if
-            // by another, too.
+            // By this leap the farther cell was a step farther than the nearer one. Another leap
+            // may give it the same distance.
             let before = self.moves_or_never(near);
             let mut leaps = sides.leaps(far);
             if leaps.any(|leap| self.moves_or_never(leap.end) == before) {

@@ -19,7 +19,7 @@ impl<const N: usize> Outlook<N> {
             unknown: [[u8::MAX; N]; N],
         };
         outlook.lower(cell, 0);
-        // All cells as far from the goal are done before the turn of those a step nearer comes.
+        // All cells at one distance from the goal are done before the cells one step nearer.
         let mut front = CellSet::of([cell]);
         while let Some(nearer) = moves.checked_sub(1) {
             let mut next = CellSet::EMPTY;

@@ -1,15 +1,15 @@
 use tolman_maze::Cell;
 
-/// Stage of a play: plays of one maze that are at the same stage continue alike.
+/// Stage of a simulated proof. Plays of one maze that are at the same stage continue alike.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Stage {
     pub(super) at: Cell,
-    /// [`Chart::learned`](super::chart::Chart::learned).
+    /// Fingerprint of the sides seen so far: [`Chart::learned`](super::chart::Chart::learned).
     pub(super) learned: u64,
 }
 
-/// The stages of the explorer's own play, each with the number of steps until then; the first
-/// stages only.
+/// Stages of the explorer's own play, each with the number of steps until then. Only the first
+/// stages are kept.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Play {
     stages: [Option<(Stage, f32)>; Self::MOST],
@@ -17,7 +17,7 @@ pub(super) struct Play {
 }
 
 impl Play {
-    /// Number of stages that are kept.
+    /// Maximum number of stages kept.
     const MOST: usize = 64;
 
     pub(super) const fn new() -> Self {

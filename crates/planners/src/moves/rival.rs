@@ -4,7 +4,7 @@ use tolman_maze::Cell;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rival {
     pub(super) stop: Cell,
-    /// Steps that it costs more than the explorer's own, summed over the mazes, and their squares.
+    /// Sum, over the mazes, of the steps that it costs more than the explorer's own stop.
     pub(super) sum: f32,
     squares: f32,
     mazes: f32,
@@ -26,7 +26,7 @@ impl Rival {
         self.mazes += 1.0;
     }
 
-    /// Returns the steps it costs more, and `confidence` standard errors on top.
+    /// Returns the average number of steps it costs more, plus `confidence` standard errors.
     pub(super) fn at_worst(&self, confidence: f32) -> f32 {
         let mean = self.sum / self.mazes;
         let variance = (self.squares / self.mazes - mean * mean).max(LEAST_VARIANCE);

@@ -31,8 +31,8 @@ pub struct RolloutConfig {
 }
 
 impl RolloutConfig {
-    /// Returns the one configuration that all our figures are made with: as many mazes as there is
-    /// time for (`docs/notebook/micromouse.md`).
+    /// Returns the configuration with which all figures of the project are made. It draws as many
+    /// mazes as there is time for (`docs/notebook/micromouse.md`).
     #[must_use]
     pub const fn tuned() -> Self {
         Self {
@@ -88,7 +88,7 @@ pub struct Rollouts<const N: usize> {
 #[derive(Clone, Copy, Debug)]
 struct Aim {
     stop: Cell,
-    /// Number of walls that were unknown then.
+    /// Number of unknown walls when the stop was chosen.
     unknown: u32,
 }
 
@@ -192,7 +192,7 @@ impl<const N: usize> Rollouts<N> {
                 None => self.hold_proofs(chart, &maze, own, at, &mut rivals),
                 Some(worth) => self.hold_scores(&worth, chart, &maze, (own, at), &mut rivals),
             };
-            // A play that comes to no end tells nothing of this maze.
+            // A play without an end reveals nothing about this maze.
             if try_all.is_some() && drawn >= self.config.trial {
                 for slot in &mut rivals {
                     *slot = slot.filter(|rival| rival.sum < 0.0);

@@ -72,7 +72,7 @@ impl<const N: usize> Sides<N> {
         }
     }
 
-    /// Returns a number that hardly another side has; the same from both its cells.
+    /// Returns a number that is nearly unique to the side, and the same from both its cells.
     pub(super) fn fingerprint(cell: Cell, direction: Direction) -> u64 {
         let number = northern_or_eastern(cell, direction).map_or(u64::MAX, |(cell, side)| {
             let is_north = u64::from(side == Direction::North);

@@ -14,11 +14,11 @@ pub struct MouseStep {
 /// A quarter turn, or none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum QuarterTurn {
-    /// −90°.
+    /// A quarter turn counter-clockwise, −90°.
     Left,
-    /// 0°.
+    /// No turn, 0°.
     None,
-    /// 90°.
+    /// A quarter turn clockwise, 90°.
     Right,
 }
 
@@ -45,8 +45,8 @@ impl QuarterTurn {
 }
 
 impl MouseStep {
-    /// Returns the step of a mouse that looks to `heading` and leaps. Sets `heading` to its new
-    /// direction.
+    /// Returns the step by which a mouse that looks to `heading` makes `leap`. Sets `heading` to
+    /// the mouse's new heading.
     #[must_use]
     pub fn of_leap(heading: &mut Direction, leap: Leap) -> Self {
         let cells = leap.cells.min(Leap::MOST_CELLS) as i8;

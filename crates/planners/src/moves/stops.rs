@@ -1,6 +1,7 @@
 use tolman_maze::Cell;
 
-/// The `K` best of some stops, the best first. Of equals the first by [`tolman_maze::Grid::index`].
+/// The `K` best stops offered, the best first. Of equally good stops, the first by
+/// [`tolman_maze::Grid::index`] counts as better.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stops<const K: usize> {
     best: [Option<(f32, Cell)>; K],
@@ -27,7 +28,7 @@ impl<const K: usize> Stops<K> {
         }
     }
 
-    /// Returns the score that a stop needs at least to be kept.
+    /// Returns the score above which a stop is kept.
     pub(super) fn lowest(&self) -> f32 {
         let last = self.best.last().copied().flatten();
         last.map_or(f32::NEG_INFINITY, |(score, _)| score)

@@ -48,11 +48,11 @@ pub(super) fn log_odds(
 /// A side near another one.
 #[derive(Clone, Copy)]
 struct Near {
-    /// Whether it runs the same way.
+    /// Whether the sides are parallel.
     is_parallel: bool,
-    /// Number of cells towards the other side, through it.
+    /// Number of cells to the near side, across this side.
     through: i16,
-    /// Number of cells along it.
+    /// Number of cells to the near side, along this side.
     along: i16,
 }
 
@@ -71,16 +71,16 @@ impl Near {
     }
 }
 
-/// Number of cells to each side that count.
+/// Maximum distance of a near side, cells.
 const REACH: i16 = 2;
-/// Number of sides that count: the parallel ones but the side itself, and those across.
+/// Number of near sides: the parallel ones without the side itself, and the perpendicular ones.
 const AROUND: usize = 48;
-/// Number of the parallel ones among them.
+/// Number of near sides that are parallel.
 const PARALLEL: usize = 24;
 /// Number of hidden units.
 const UNITS: usize = 64;
 
-/// The sides that count, in the order of the weights.
+/// Near sides, in the order of the weights.
 const NEAR: [Near; AROUND] = {
     let (mut all, mut index) = ([near(0); AROUND], 0);
     while index < AROUND {
@@ -110,7 +110,7 @@ const fn near(index: usize) -> Near {
 
 /// The weights, rows of [`UNITS`] signed bytes, and the bias of the output.
 const WEIGHTS: &[u8; (2 * AROUND + 3 + 2) * UNITS + 1] = include_bytes!("wall_odds.bin");
-/// Value of a weight of 1.
+/// Number by which the weight 1 is stored.
 const ONE: f32 = 24.0;
 
 static OPEN: [[f32; UNITS]; AROUND] = rows(0);

@@ -9,9 +9,9 @@ use super::{MoveExplorerConfigError, Rollouts};
 /// Condition on which [`Rollouts`] stop although the best run is not proven: when looking on costs
 /// more than the expected gain.
 ///
-/// Mazes are drawn that agree with all that is known, and the rest of the proof is played in each.
-/// The gain is how much shorter the best run of the drawn maze is than the known one. The price is
-/// the steps of the proof.
+/// Mazes are drawn that agree with all known walls, and the rest of the proof is played in each.
+/// The gain is how much shorter the drawn maze's best run is than the known run. The price is the
+/// number of steps of the proof.
 ///
 /// The stops are chosen by the score then, not by the steps of the proof. It is unknown in advance
 /// when a proof is broken off. So a play counts half as if it were played to its end, and half as
@@ -32,8 +32,8 @@ pub struct WorthConfig {
 }
 
 impl WorthConfig {
-    /// Returns the only configuration of all our figures. `docs/micromouse.md` explains how it was
-    /// chosen.
+    /// Returns the configuration with which all figures of the project are made.
+    /// `docs/micromouse.md` explains how it was chosen.
     #[must_use]
     pub const fn tuned() -> Self {
         Self {

@@ -1,5 +1,5 @@
-/// Cells waiting for their turn, by time: a ring of 2 `N` buckets, which each hold every cell at
-/// most once. `N` is at most 32, so that a row of cells is a word.
+/// Queue of cells by time: a ring of 2 `N` buckets, each of which holds a cell at most once. `N` is
+/// at most 32, so that a row of cells is a word.
 #[derive(Clone, Debug)]
 pub(super) struct Buckets<const N: usize> {
     ring: [[Bucket<N>; N]; 2],

@@ -48,7 +48,7 @@ pub enum SpeedRunCertificateError {
         /// Move that fails.
         run_move: RunMove,
     },
-    /// The run does not end in the middle of a goal.
+    /// The run does not end in the middle of a goal cell.
     #[error("the run does not end in the middle of a goal")]
     NotAtGoal,
     /// The run does not take the stated time.
@@ -164,7 +164,8 @@ pub fn best_possible_ms(
 /// middles of edges in one, posts in none.
 type Point = (i32, i32);
 
-/// A place and a heading: 0 north, 1 north-east, and so on.
+/// Position and heading of the mouse on the lattice. Headings are numbered clockwise: 0 north, 1
+/// north-east, and so on.
 #[derive(Clone, Copy)]
 struct Spot {
     at: Point,
@@ -173,7 +174,7 @@ struct Spot {
 
 struct Made {
     run_move: RunMove,
-    /// The middles of the edges it crosses, that at the end included.
+    /// Middles of the edges that the move crosses, including the edge at its end.
     passed: Vec<Point>,
     to: Spot,
 }
@@ -252,7 +253,8 @@ impl Spot {
         made
     }
 
-    /// Returns straights of 1, 2, … cells, each of them one or several steps of the heading long.
+    /// Adds to `made` the straights of 1, 2, … cells, each of which is `steps` steps of the heading
+    /// per cell long.
     fn straights(
         self,
         open: &impl Fn(Point) -> bool,

@@ -32,7 +32,7 @@ pub struct SpeedRunConfig {
 pub struct SpeedProfile {
     /// Acceleration, mm/s², above 0.
     pub acceleration_mm_s2: f64,
-    /// mm/s, not below the speed in the turns.
+    /// Top speed, mm/s, at least the speed in the turns.
     pub top_speed_mm_s: f64,
 }
 
@@ -56,9 +56,10 @@ pub struct SlalomTimes {
 }
 
 impl SpeedRunConfig {
-    /// Returns half-size mazes with the defaults of kerikun11/micromouse-maze-library
-    /// (`StepMapSlalom::EdgeCost::RunParameter`). Cells are 90 mm wide and turns driven at 420
-    /// mm/s. Straights have 4200 mm/s² up to 1500 mm/s, diagonals 3600 mm/s² up to 1200 mm/s.
+    /// Returns the configuration for half-size mazes, with the defaults of
+    /// kerikun11/micromouse-maze-library (`StepMapSlalom::EdgeCost::RunParameter`). Cells are 90 mm
+    /// wide and turns driven at 420 mm/s. Straights have 4200 mm/s² up to 1500 mm/s, diagonals 3600
+    /// mm/s² up to 1200 mm/s.
     ///
     /// The library's sixth turn, FS90 (287 ms, within one cell), is left out, as in the library's
     /// own runs with diagonals. It is driven at 266 mm/s, slower than straights end, and serves its
@@ -86,7 +87,8 @@ impl SpeedRunConfig {
         }
     }
 
-    /// Returns classic mazes: like [`SpeedRunConfig::half_size`], with cells of 180 mm.
+    /// Returns the configuration for classic mazes: like [`SpeedRunConfig::half_size`], with cells
+    /// of 180 mm.
     #[must_use]
     pub const fn classic() -> Self {
         Self {
@@ -117,16 +119,16 @@ pub enum SpeedRunConfigError {
         field: &'static str,
         /// Value that was given.
         value: f64,
-        /// The speed in the turns.
+        /// Speed in the turns, mm/s.
         turn_speed_mm_s: f64,
     },
     /// A move takes no time, or the longest straight that fits into the maze takes more than 65.535
     /// s.
     #[error("moves take {shortest_ms} to {longest_ms} ms: they have to take 1 to 65535 ms")]
     OutOfRange {
-        /// The shortest move.
+        /// Duration of the shortest move, ms.
         shortest_ms: u64,
-        /// The longest move.
+        /// Duration of the longest move, ms.
         longest_ms: u64,
     },
     /// The longest move takes too many times as long as the shortest, so that the search would need
@@ -136,11 +138,11 @@ pub enum SpeedRunConfigError {
          {shortest_ms} ms: use a map for larger mazes"
     )]
     TooUneven {
-        /// The longest move.
+        /// Duration of the longest move, ms.
         longest_ms: u64,
-        /// The shortest move.
+        /// Duration of the shortest move, ms.
         shortest_ms: u64,
-        /// Maximum ratio of the two.
+        /// Maximum ratio of the two durations.
         most: usize,
     },
 }

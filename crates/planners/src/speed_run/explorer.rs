@@ -10,8 +10,8 @@ use crate::{Passages, StepMap, TooLarge, Unknown};
 /// mouse drives to the nearest cell beside one of the unknown walls. On the way out the goals count
 /// as such cells too, so that it has been there in the end.
 ///
-/// The explorer compares all that it holds of the maze with `walls` at each call. So walls may be
-/// forgotten again at any time.
+/// The explorer compares its stored passages with `walls` at each call. So walls may be forgotten
+/// again at any time.
 #[derive(Clone, Debug)]
 pub struct SpeedRunExplorer<'a, const N: usize> {
     planner: SpeedRunPlanner<'a, N>,
@@ -38,7 +38,7 @@ pub enum Decision {
     /// The mouse is at the start, was at a goal, and no run is faster than the known one, whatever
     /// the unknown walls are. Its duration:
     Finished {
-        /// Milliseconds.
+        /// Duration of the run, ms.
         run_ms: u16,
     },
     /// No way leads to a goal, or the walls around the mouse are not known.

@@ -29,7 +29,8 @@ const NEVER: u16 = u16::MAX;
 pub struct SpeedRunMap<const N: usize> {
     /// Times to the reversed states, ms: the search drives backwards from the goals.
     times: [[[u16; STATES_PER_CELL]; N]; N],
-    /// One bit a state: its time is that of a straight, which no other straight has to continue.
+    /// One bit for each state: whether its best run begins with a straight, which no other straight
+    /// has to continue.
     by_straight: [[u16; N]; N],
     buckets: Buckets<N>,
 }
@@ -68,7 +69,7 @@ impl<const N: usize> SpeedRunMap<N> {
         }
     }
 
-    /// Works the times to `goals` out again. O(N² · N): every state looks along a straight at most.
+    /// Recomputes the times to `goals`. O(N² · N): every state looks along one straight at most.
     pub fn search(
         &mut self,
         passages: &Passages<N>,
@@ -167,7 +168,7 @@ impl<const N: usize> SpeedRunMap<N> {
         ) else {
             return;
         };
-        // Without a branch for each, because nothing tells beforehand which they are.
+        // No branch for each state, because nothing predicts which states they are.
         let mut due = (0..).zip(states).fold(0_u16, |due, (state, time)| {
             let is_due = times.bucket(time) == bucket && time != NEVER;
             due | u16::from(is_due) << state
@@ -183,7 +184,7 @@ impl<const N: usize> SpeedRunMap<N> {
                     Facing::Diagonal(..) => times.diagonals(),
                 };
                 for (cells, to) in straights::<N>(sides, node) {
-                    // Who got there no later than we set out is ahead of us all the way.
+                    // A state that was reached no later stays ahead along the whole straight.
                     if self.time(to) <= time {
                         break;
                     }

@@ -61,7 +61,7 @@ impl RunStep {
     /// Returns the sides by which the mouse leaves the cells in turn, from the cell of
     /// [`RunStep::from`] to that of the state after the move.
     pub fn directions(self) -> impl Iterator<Item = Direction> {
-        // A pattern, from the beginning again when it is used up.
+        // The directions form a pattern, which starts again when it is used up.
         let (pattern, period, count) = match (self.from, self.run_move) {
             (RunState::Straight { heading, .. }, RunMove::Turn { slalom, side }) => {
                 let to_side = match side {

@@ -11,7 +11,7 @@ pub enum RunState {
     Straight {
         /// The cell the mouse is in.
         cell: Cell,
-        /// Heading.
+        /// Heading of the mouse.
         heading: Direction,
     },
     /// On the edge through which the mouse enters `cell` in direction `into`, looking at 45°
@@ -20,9 +20,9 @@ pub enum RunState {
     Diagonal {
         /// The cell the mouse is about to cross.
         cell: Cell,
-        /// The way it comes in.
+        /// Direction in which the mouse enters the cell.
         into: Direction,
-        /// The way it goes out.
+        /// Direction in which the mouse leaves the cell.
         out: Direction,
     },
 }
@@ -41,9 +41,9 @@ pub(super) struct Node {
 /// Direction of a state within its cell.
 #[derive(Clone, Copy)]
 pub(super) enum Facing {
-    /// Looking this way.
+    /// A straight state: the mouse looks in this direction.
     Straight(usize),
-    /// Coming in this way, leaving that way.
+    /// A diagonal state: the mouse enters in the first direction and leaves in the second.
     Diagonal(usize, usize),
 }
 

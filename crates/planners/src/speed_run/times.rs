@@ -21,9 +21,9 @@ use super::config::{SlalomTimes, SpeedProfile, SpeedRunConfig, SpeedRunConfigErr
 /// one, and the search need not look at straights that follow straights.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SpeedRunTimes<const N: usize> {
-    /// Straights of 0 … N − 1 cells.
+    /// Times of straights of 0 … N − 1 cells, ms.
     straight: [u16; N],
-    /// Diagonals of 0 … 2 N − 1 half diagonals of a cell.
+    /// Times of diagonals of 0 … 2 N − 1 half cell diagonals, ms.
     diagonal: [[u16; N]; 2],
     slalom: SlalomTimes,
     /// 2¹⁶ by the time of the shortest move, rounded up.
@@ -105,7 +105,7 @@ impl<const N: usize> SpeedRunTimes<N> {
         }
     }
 
-    /// Returns the slalom turns.
+    /// Returns the durations of the slalom turns.
     #[must_use]
     pub const fn slalom(&self) -> SlalomTimes {
         self.slalom

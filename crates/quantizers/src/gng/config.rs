@@ -29,7 +29,7 @@ pub struct GngConfig {
     pub error: ErrorKind,
     /// Further condition for the network to grow.
     pub gate: GrowthGate,
-    /// Whether units that are of little use are taken away (GNG-U).
+    /// Condition on which units of little utility are removed (GNG-U); `None` for never.
     pub utility: Option<Utility>,
 }
 
@@ -104,11 +104,11 @@ pub struct Utility {
     /// k: after each input, the unit of least utility U goes if max(E) > k · U. Small values forget
     /// quickly. Above 0.
     pub threshold: f64,
-    /// Condition on which units are removed.
+    /// Moments at which units are removed.
     pub removal: Removal,
 }
 
-/// Condition on which a unit of little use is removed.
+/// Moments at which a unit of little utility is removed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
@@ -170,7 +170,7 @@ impl GngConfig {
         }
     }
 
-    /// Returns the values for inputs in the order of a robot's way, behind a
+    /// Returns the values for inputs in the order of a robot's way, for use inside a
     /// [`ReplayQuantizer`](crate::ReplayQuantizer). They are Fritzke's with two changes. Units move
     /// to where they are needed ([`Removal::WhenFull`], k = 4). Errors are remembered long enough
     /// to tell where that is (d = 0.9995). Our own; measured in `docs/quantizers.md`.

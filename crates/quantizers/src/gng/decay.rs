@@ -42,8 +42,8 @@ impl Decay {
         kept * self.factor
     }
 
-    /// Multiplies all values by `rate`. If the factor has become too small for that, every kept
-    /// number has to be multiplied by the number that comes back.
+    /// Multiplies all values by `rate`. If the factor has become too small, it returns a number by
+    /// which every kept number has to be multiplied.
     #[inline]
     #[must_use]
     pub(super) fn decay(&mut self, rate: f64) -> Option<f64> {

@@ -12,20 +12,20 @@ const VERSION: u32 = 1;
 
 /// Complete state of a [`Gng`]. Resuming it gives the same bits as never having stopped.
 ///
-/// With the feature `serde`, `Gng` itself is serialized as this, and refuses to be made of what is
-/// invalid.
+/// With the feature `serde`, `Gng` itself is serialized in this form. Deserializing refuses invalid
+/// values.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SavedGng<S> {
-    /// Format of the file.
+    /// Name of the format.
     pub format: String,
-    /// The version of the format.
+    /// Version of the format.
     pub version: u32,
-    /// The parameters.
+    /// Parameters of the network.
     pub config: GngConfig,
-    /// The units and edges.
+    /// Units and edges of the network.
     pub network: NetworkSnapshot<S>,
-    /// The error and the utility of each unit, both to be multiplied by `factor`.
+    /// Error and utility of each unit, to be multiplied by `factor`.
     pub sums: Vec<(f64, f64)>,
     /// Factor by which errors have decayed since all of them were last brought up to date; above 0,
     /// at most 1.

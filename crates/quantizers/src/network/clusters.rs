@@ -29,7 +29,7 @@ use crate::{Scalar, UnitId, UnknownUnit};
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Clusters {
-    /// Ascending by id.
+    /// Cluster of each unit, ascending by unit id.
     labels: Vec<(UnitId, u32)>,
     count: u32,
 }
@@ -43,7 +43,7 @@ impl Clusters {
     /// Returns the number of a unit's cluster.
     ///
     /// # Errors
-    /// If the unit was not there when the clusters were found.
+    /// If the unit did not exist when the clusters were computed.
     pub fn label(&self, id: UnitId) -> Result<u32, UnknownUnit> {
         self.labels
             .binary_search_by_key(&id, |(id, _)| *id)

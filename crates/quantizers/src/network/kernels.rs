@@ -6,15 +6,15 @@ use super::tree::MOST_FEATURES;
 /// do, and nothing is fused.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Lanes {
-    /// The number that every processor of the target has lanes for.
+    /// Number of lanes that every processor of the target has.
     Baseline,
-    /// The number of lanes that this processor has, detected at run time. Without the feature `std`
-    /// that is impossible, and it is the same as [`Lanes::Baseline`].
+    /// Number of lanes of this processor, detected at run time. Without the feature `std` it cannot
+    /// be detected, and is that of [`Lanes::Baseline`].
     #[default]
     Widest,
 }
 
-/// Search for the nearest units. The results are the same bit for bit.
+/// Method of searching for the nearest units. All methods give the same result, bit for bit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum UnitSearch {
     /// The fastest: the index for many units of few features, else the scan.
@@ -35,7 +35,7 @@ impl UnitSearch {
         let least = match self {
             Self::Scan => return false,
             Self::Index => 1,
-            // Where both took as long when measured.
+            // Number of units at which both searches took equally long when measured.
             Self::Automatic => 64 << dimension,
         };
         units >= least

@@ -6,7 +6,7 @@ use alloc::vec::Vec;
 #[derive(Clone, Copy, Debug, Default)]
 struct Half {
     to: u32,
-    /// The wins of both ends when the edge was new or renewed last.
+    /// Sum of the wins of both ends when the edge was made or last renewed.
     renewed: u32,
 }
 
@@ -154,8 +154,8 @@ impl Links {
         place.is_some()
     }
 
-    /// Gives slots new numbers: `new[slot]` is at most `slot`, ascending, and `u32::MAX` for slots
-    /// without edges that go.
+    /// Renumbers slots. `new[slot]` is at most `slot` and ascends; it is `u32::MAX` for a removed
+    /// slot, which has no edges.
     pub(crate) fn renumber(&mut self, new: &[u32]) {
         let mut len = 0;
         for (slot, to) in new.iter().enumerate() {

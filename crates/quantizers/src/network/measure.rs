@@ -6,11 +6,11 @@ use crate::{InputError, Scalar};
 /// Distances of inputs from their nearest units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct QuantizationError {
-    /// The mean of the squared distances (MSE).
+    /// Mean of the squared distances (MSE).
     pub mean_squared: f64,
-    /// The mean of the distances.
+    /// Mean of the distances, in the unit of the features.
     pub mean: f64,
-    /// The largest distance.
+    /// Largest distance, in the unit of the features.
     pub largest: f64,
     /// Number of inputs measured.
     pub inputs: usize,

@@ -4,7 +4,7 @@ use alloc::boxed::Box;
 
 use crate::{InputError, QuantizerConfigError, Scalar};
 
-/// Σ w (x − p)² over the features of inputs of one size.
+/// Squared distance Σ w (x − p)² over the features of inputs of one size.
 #[derive(Clone, Debug)]
 pub(crate) struct Metric<S> {
     dimension: usize,
@@ -15,7 +15,7 @@ pub(crate) struct Metric<S> {
 }
 
 impl<S: Scalar> Metric<S> {
-    /// Returns all weights 1.
+    /// Returns the metric in which all weights are 1.
     pub(crate) fn uniform(dimension: usize) -> Result<Self, QuantizerConfigError> {
         if dimension == 0 {
             return Err(QuantizerConfigError::NoFeatures);
@@ -27,7 +27,7 @@ impl<S: Scalar> Metric<S> {
         })
     }
 
-    /// Returns the weights of the squares, one a feature.
+    /// Returns the metric with these weights of the squares, one per feature.
     pub(crate) fn weighted(weights: &[S]) -> Result<Self, QuantizerConfigError> {
         let mut total = 0.0;
         for (feature, weight) in weights.iter().enumerate() {
@@ -46,7 +46,8 @@ impl<S: Scalar> Metric<S> {
         Ok(Self {
             dimension: weights.len(),
             weights: Some(weights.into()),
-            // The unweighted distance must not overflow either: relative errors ask for it.
+            // Without weights the squared distance must not overflow either: relative errors use
+            // it.
             limit: limit::<S>(total.max(weights.len() as f64)),
         })
     }
@@ -59,7 +60,7 @@ impl<S: Scalar> Metric<S> {
         self.weights.as_deref()
     }
 
-    /// Checks that `input` can be learned or asked for.
+    /// Checks that `input` can be learned or searched for.
     #[inline]
     pub(crate) fn check(&self, input: &[S]) -> Result<(), InputError> {
         InputError::check_size(self.dimension, input.len())?;
@@ -82,7 +83,7 @@ impl<S: Scalar> Metric<S> {
         near.check(prototype)
     }
 
-    /// Checks that `input` can be asked for where `mask` is true.
+    /// Checks that `input` can be searched for in the features where `mask` is true.
     pub(crate) fn check_masked(&self, input: &[S], mask: &[bool]) -> Result<(), InputError> {
         InputError::check_size(self.dimension, input.len())?;
         if mask.len() != self.dimension {
@@ -130,8 +131,8 @@ impl<S: Scalar> Metric<S> {
     }
 }
 
-/// Returns two values within ± limit are at most 2 limits apart; prototypes may miss the limit by a
-/// rounding, so 4.
+/// Returns the maximum magnitude of a feature. Two values within ± limit are at most 2 limits
+/// apart. Rounding may put a prototype beyond the limit, so the bound uses 4 in place of 2² units.
 fn limit<S: Scalar>(total_weight: f64) -> S {
     S::from_f64(libm::sqrt(S::MAX_SQUARED_DISTANCE / total_weight) / 4.0)
 }

@@ -4,12 +4,11 @@ use alloc::vec::Vec;
 
 use crate::Scalar;
 
-/// Number of units side by side in a block.
+/// Number of units in a block.
 pub(crate) const LANES: usize = 16;
 
 /// Vectors of one dimension in blocks of [`LANES`]. A block holds the first feature of each vector,
-/// then the second, and so on. A lane that holds no unit holds infinities, which are near to
-/// nothing.
+/// then the second, and so on. A lane without a unit holds infinities, which are never the nearest.
 #[derive(Clone, Debug)]
 pub(crate) struct Prototypes<S> {
     dimension: usize,
@@ -30,7 +29,7 @@ impl<S: Scalar> Prototypes<S> {
         self.dimension
     }
 
-    /// Returns all blocks, each `dimension` rows of lanes.
+    /// Returns all blocks, each of which has one row of lanes per feature.
     #[inline(always)]
     pub(crate) fn rows(&self) -> &[[S; LANES]] {
         &self.features

@@ -77,19 +77,19 @@ impl<S: Scalar> Best<S> {
 pub(crate) trait Terms<S>: Copy {
     /// Returns the term of `feature` if it differs by `difference`; 0 if it is not compared.
     fn square(self, feature: usize, difference: S) -> S;
-    /// Returns whether the feature is compared at all.
+    /// Returns whether the feature is compared.
     fn compares(self, feature: usize) -> bool;
 }
 
-/// All features alike.
+/// Terms in which all features count alike.
 #[derive(Clone, Copy)]
 pub(crate) struct Plain;
 
-/// Each feature by its weight.
+/// Terms in which each feature counts by its weight.
 #[derive(Clone, Copy)]
 pub(crate) struct Weighted<'a, S>(pub(crate) &'a [S]);
 
-/// Only features whose flag is set.
+/// Terms that leave out the features whose flag is not set.
 #[derive(Clone, Copy)]
 pub(crate) struct Masked<'a, T>(pub(crate) T, pub(crate) &'a [bool]);
 

@@ -26,9 +26,9 @@ pub struct NetworkSnapshot<S> {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SnapshotUnit<S> {
-    /// The unit.
+    /// Id of the unit.
     pub id: UnitId,
-    /// One value a feature.
+    /// Features of the unit's prototype, in order.
     pub prototype: Vec<S>,
 }
 

@@ -1,4 +1,4 @@
-//! Which units are nearest where there are few features and many units: an exact index.
+//! Exact index of the nearest units, for few features and many units.
 //!
 //! A k-d tree whose leaves hold up to 16 units each, side by side. So a leaf is compared as fast as
 //! a block of [`Prototypes`]. It gives the same answer as a scan of all units, to the bit. It skips
@@ -29,7 +29,7 @@ enum Node<S> {
     Inner {
         feature: u32,
         split: S,
-        /// The first child; the second is the node after it.
+        /// Index of the first child; the second child is the next node.
         children: u32,
     },
     Leaf(u32),
@@ -37,11 +37,11 @@ enum Node<S> {
 
 #[derive(Clone, Copy, Debug)]
 struct Leaf<S> {
-    /// Values by feature; lanes without a unit are at infinity.
+    /// Values of the units by feature. Lanes without a unit hold infinity.
     features: [[S; LANES]; MOST_FEATURES],
     slots: [u32; LANES],
     len: u32,
-    /// The leaf's node, and how many inner nodes are above it.
+    /// A leaf's node, with the number of inner nodes above it.
     node: u32,
     depth: u32,
     /// Bounds of the units by the splits above, by feature, both ends included.
@@ -63,10 +63,10 @@ struct Place {
 #[derive(Clone, Debug)]
 pub(crate) struct Tree<S> {
     dimension: usize,
-    /// The root is node 0. Children stand in pairs.
+    /// Nodes of the tree. The root is node 0, and the two children of a node are adjacent.
     nodes: Vec<Node<S>>,
     leaves: Vec<Leaf<S>>,
-    /// Places by slot; arbitrary where no unit is.
+    /// Place of each slot's unit; arbitrary for a slot without a unit.
     places: Vec<Place>,
     len: usize,
     /// Working memory of a rebuild, kept to avoid allocation.
@@ -86,7 +86,7 @@ impl<S: Scalar> Leaf<S> {
         }
     }
 
-    /// Takes all units out.
+    /// Removes all units.
     fn clear(&mut self) {
         self.features = [[S::INFINITY; LANES]; MOST_FEATURES];
         self.slots = [u32::MAX; LANES];
@@ -114,7 +114,7 @@ impl<S: Scalar> Tree<S> {
         tree
     }
 
-    /// Builds a balanced tree of all of `self.slots`.
+    /// Builds a balanced tree of all units in `self.slots`.
     fn build(&mut self, prototypes: &Prototypes<S>) {
         self.nodes.clear();
         self.nodes.push(Node::Leaf(0));
@@ -126,7 +126,8 @@ impl<S: Scalar> Tree<S> {
         self.slots = slots;
     }
 
-    /// Enters units into an empty leaf's region, divided until every leaf has room for its own.
+    /// Enters units into the region of an empty leaf. The region is divided until every leaf has
+    /// room for its units.
     fn fill(&mut self, leaf: u32, slots: &mut [u32], prototypes: &Prototypes<S>) {
         if slots.len() > LANES {
             return self.divide(leaf, slots, prototypes);
@@ -136,9 +137,9 @@ impl<S: Scalar> Tree<S> {
         }
     }
 
-    /// Divides an empty leaf's region by the feature that spreads its units most, at their median,
-    /// and enters them. Equal values are ordered by slot, so that the division does not depend on
-    /// the order before.
+    /// Divides an empty leaf's region at the median of the feature in which the units spread most,
+    /// and enters the units. Equal values are ordered by slot, so that the division does not depend
+    /// on the order before.
     fn divide(&mut self, leaf: u32, slots: &mut [u32], prototypes: &Prototypes<S>) {
         let feature = widest(slots, self.dimension, prototypes);
         let at = |slot: u32| prototypes.at(slot as usize, feature);
@@ -211,7 +212,7 @@ impl<S: Scalar> Tree<S> {
         }
     }
 
-    /// Returns whether leaves are so empty that a new tree pays.
+    /// Returns whether so many leaves are nearly empty that a new tree pays.
     fn is_sparse(&self) -> bool {
         self.leaves.len() > self.len / 4 + 8
     }
@@ -260,7 +261,7 @@ impl<S: Scalar> Tree<S> {
         self.build(prototypes);
     }
 
-    /// Takes a unit out.
+    /// Removes a unit.
     pub(crate) fn remove(&mut self, slot: usize) {
         let Place { leaf, lane } = self.places[slot];
         let inside = &mut self.leaves[leaf as usize];
@@ -278,7 +279,7 @@ impl<S: Scalar> Tree<S> {
         self.len -= 1;
     }
 
-    /// Follows a unit that has moved.
+    /// Moves the entry of a unit whose prototype has moved.
     #[inline]
     pub(crate) fn follow(&mut self, slot: usize, prototypes: &Prototypes<S>) {
         let Place { leaf, lane } = self.places[slot];
@@ -295,7 +296,7 @@ impl<S: Scalar> Tree<S> {
         }
     }
 
-    /// Gives slots new numbers, as [`super::links::Links::renumber`] does.
+    /// Renumbers slots, as [`super::links::Links::renumber`] does.
     pub(crate) fn renumber(&mut self, new: &[u32]) {
         for leaf in &mut self.leaves {
             for slot in &mut leaf.slots[..leaf.len as usize] {
@@ -315,8 +316,8 @@ impl<S: Scalar> Tree<S> {
         self.visit(0, input, terms, &mut [S::ZERO; MOST_FEATURES], best);
     }
 
-    /// Offers the units below `node`. `gaps` is how far the node's region is from the input, by
-    /// feature.
+    /// Offers the units below `node` to `best`. `gaps` holds the distance of the input from the
+    /// node's region in each feature.
     fn visit(
         &self,
         node: u32,

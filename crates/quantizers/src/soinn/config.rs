@@ -14,7 +14,7 @@ pub struct SoinnConfig {
     /// λ: number of inputs between two insertions and removals of noise, at least 1. A unit has to
     /// find a neighbour within less than λ inputs.
     pub period: u32,
-    /// Whether units are inserted where the error is large.
+    /// Rule by which units are inserted where the error is large.
     pub insertion: ErrorInsertion,
     /// Units that count as noise.
     pub denoising: Denoising,
@@ -62,9 +62,10 @@ pub enum Denoising {
     },
     /// Removes units without a neighbour. Also removes units with one neighbour that have won less
     /// than `c` times their share. A unit's share since it came is the number of inputs divided by
-    /// the number of units. Ours, not the paper's: the same question, asked in proportion to age.
+    /// the number of units. This rule is ours: it applies the paper's criterion in proportion to
+    /// age.
     ///
-    /// What the stream has left for long is taken away from its loose ends on.
+    /// A part of the graph without inputs for long is removed from its ends inwards.
     LowRate {
         /// c: 0 to 1; the nearer to 1, the noisier the data are.
         c: f64,

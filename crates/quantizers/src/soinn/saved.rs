@@ -12,20 +12,20 @@ const VERSION: u32 = 1;
 
 /// Complete state of a [`Soinn`]. Resuming it gives the same bits as never having stopped.
 ///
-/// With the feature `serde`, `Soinn` itself is serialized as this, and refuses to be made of what
-/// is invalid.
+/// With the feature `serde`, `Soinn` itself is serialized in this form. Deserializing refuses
+/// invalid values.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SavedSoinn<S> {
-    /// Format of the file.
+    /// Name of the format.
     pub format: String,
-    /// The version of the format.
+    /// Version of the format.
     pub version: u32,
-    /// The parameters.
+    /// Parameters of the layer.
     pub config: SoinnConfig,
-    /// The units and edges.
+    /// Units and edges of the layer.
     pub network: NetworkSnapshot<S>,
-    /// Memory of each unit.
+    /// Tally of each unit, in the order of the units.
     pub tallies: Vec<Tally>,
     /// Number of inputs learnt.
     pub steps: u64,

@@ -80,10 +80,10 @@ pub enum SecondLayerError {
     /// A field is outside its range.
     #[error(transparent)]
     Config(#[from] QuantizerConfigError),
-    /// A graph of fewer than two units has no lengths.
+    /// The first layer has fewer than two units, so it has no distances.
     #[error("the first layer has {found} units and needs two: let it observe more")]
     TooFewUnits {
-        /// Number of units it has.
+        /// Number of units of the first layer.
         found: usize,
     },
 }
@@ -143,7 +143,7 @@ impl<S: Scalar> Soinn<S> {
         Ok(second)
     }
 
-    /// Returns T_c.
+    /// Returns the constant threshold T_c.
     fn second_threshold(&self, threshold: SecondThreshold) -> Result<f64, SecondLayerError> {
         let found = self.network.len();
         if found < 2 {
@@ -179,7 +179,7 @@ impl<S: Scalar> Soinn<S> {
         edges.collect()
     }
 
-    /// Returns the distance of the nearest units of every two clusters.
+    /// Returns, for every two clusters, the distance between their nearest units.
     fn cluster_distances(&self) -> Vec<f64> {
         let clusters = self.network.clusters();
         let labelled: Vec<(usize, usize)> = self
@@ -188,7 +188,7 @@ impl<S: Scalar> Soinn<S> {
             .zip(clusters.iter().map(|(_, label)| label as usize))
             .collect();
         let count = clusters.count();
-        // By the greater label, then by the smaller.
+        // Distances by the greater label of the pair, then by the smaller.
         let mut nearest = vec![f64::INFINITY; count * count.saturating_sub(1) / 2];
         for (place, (a, label)) in labelled.iter().enumerate() {
             for (b, other) in &labelled[..place] {

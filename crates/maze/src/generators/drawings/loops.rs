@@ -30,8 +30,8 @@ pub fn ring(size: (u16, u16), rng: &mut impl Rng) -> Result<Maze, GenerateError>
 }
 
 /// Draws a ladder: two equal square loops side by side that share a rung. The corridors between
-/// corners and forks have 1 to 15 cells, by chance as many as fit. Start and goal lie anywhere, far
-/// from each other. O(cells).
+/// corners and forks have a random length of 1 to 15 cells, as far as it fits. Start and goal lie
+/// anywhere, far from each other. O(cells).
 ///
 /// # Errors
 /// [`GenerateError`] below 5 × 3 cells or above 1024 a side.

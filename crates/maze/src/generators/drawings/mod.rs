@@ -1,7 +1,8 @@
-//! Draws mazes that a person recognizes, each from its size and seed. All of one name have the same
-//! kind of shape.
+//! Draws mazes of recognizable shapes, each from its size and seed. All drawings of one name have
+//! the same kind of shape.
 //!
-//! All are closed and joined, mark a start and a goal, and wall off what they do not use.
+//! All have a closed border and connected corridors, and mark a start and a goal. Unused cells are
+//! walled off.
 
 mod blocks;
 mod comb;

@@ -48,8 +48,8 @@ impl Pen {
         }
     }
 
-    /// Draws a corridor of `cells` cells onward from `from`, and returns the last one: earlier at
-    /// the border.
+    /// Draws a corridor of `cells` cells onward from `from`, and returns its last cell. The
+    /// corridor ends earlier at the border.
     pub(super) fn line(&mut self, from: Cell, direction: Direction, cells: u16) -> Cell {
         let mut at = from;
         for _ in 0..cells {

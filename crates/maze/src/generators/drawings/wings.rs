@@ -46,7 +46,7 @@ pub fn wings(size: (u16, u16), rng: &mut impl Rng) -> Result<Maze, GenerateError
     Ok(pen.finish(start, rng))
 }
 
-/// Opens all that is open in `wing`, where its cells lie.
+/// Opens in `pen` every wall that is open in `wing`, at the place that `lies` gives for each cell.
 fn copy(pen: &mut Pen, wing: &Maze, lies: impl Fn(Cell) -> Cell) {
     for cell in wing.grid().cells() {
         for (_, next) in wing.neighbours(cell) {

@@ -6,7 +6,7 @@ use tolman_quantizers::{ErrorKind, Gng, GngConfig, Lanes, Quantizer, UnitSearch}
 
 type Failure = Box<dyn std::error::Error>;
 
-/// What is printed.
+/// Results of one training, as they are printed.
 struct Outcome {
     rate: f64,
     mse: f64,
