@@ -3,9 +3,9 @@
 use std::path::Path;
 use std::process::Command;
 
-/// The history of the project's own repository, from here.
+/// Git folder of the project's own repository, relative to this crate.
 const REPOSITORY: &str = "../../.git";
-/// File that lies beside this crate in that repository alone.
+/// File that exists beside this crate only in that repository.
 const NEIGHBOUR: &str = "../geom/Cargo.toml";
 
 fn main() {
@@ -41,7 +41,7 @@ fn is_checkout() -> bool {
     Path::new(REPOSITORY).exists() && Path::new(NEIGHBOUR).exists()
 }
 
-/// Returns the commit, with a mark if the sources differ from it.
+/// Returns the commit, marked if the sources differ from it.
 fn commit() -> Option<String> {
     let commit = output("git", &["rev-parse", "--short=10", "HEAD"])?;
     let changes = output(

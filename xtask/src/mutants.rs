@@ -1,4 +1,4 @@
-//! `cargo xtask mutants`: whether the tests notice small changes of the code.
+//! `cargo xtask mutants`: checks that the tests notice small changes of the code.
 
 use anyhow::{Context, Result, ensure};
 use serde_json::Value;
@@ -15,10 +15,10 @@ const PACKAGES: &[&str] = &[
     "tolman-maps",
 ];
 
-/// The share of changes that tests have to notice, %.
+/// Minimum share of the changes that the tests have to notice, %.
 const LEAST: u64 = 92;
 
-/// Time that the tests of one change are given, seconds. One that never ends is noticed, too.
+/// Time limit for the tests of one change, seconds. A change that exceeds it counts as noticed.
 const TIME: &str = "300";
 
 /// Files of tests alone, whose changes say nothing about the code.
@@ -75,9 +75,9 @@ pub(crate) fn check(shard: Shard, packages: &[String]) -> Result<Outcome> {
     mutants.arg(format!("{first}/{of}"));
     mutants.args(["--exclude", TESTS, "--timeout", TIME]);
     mutants.arg("--output").arg(&folder);
-    // What others wrote is compiled once, not in every copy again.
+    // Dependencies are compiled once, not in every copy again.
     mutants.env("CARGO_TARGET_DIR", folder.join("build"));
-    // How it exits says less than what it writes.
+    // Its exit code says less than its output.
     mutants.status().context("cannot start cargo mutants")?;
     let folder = folder.join("mutants.out");
     let tried = Tried::of(&read(&folder.join("outcomes.json"))?)?;
@@ -107,7 +107,7 @@ impl Tried {
         })
     }
 
-    /// Asks for enough that were noticed.
+    /// Checks that enough of the changes were noticed.
     fn check(&self) -> Result<()> {
         let Self { noticed, missed } = *self;
         let all = noticed + missed;

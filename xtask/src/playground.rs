@@ -115,7 +115,7 @@ fn build(file: &Path) -> Result<()> {
         size < LARGEST,
         "the page has {size} bytes, and may have {LARGEST}: leave something out"
     );
-    // Written beside its place and renamed, so that no half-written page is left.
+    // The page is written under another name and then renamed, so that no incomplete page remains.
     let mut beside = OsString::from(file);
     beside.push(".new");
     fs::write(&beside, page).with_context(|| format!("cannot write {}", file.display()))?;

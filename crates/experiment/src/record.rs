@@ -224,7 +224,7 @@ mod tests {
     record! {
         /// Where a dart hit.
         struct Hit {
-            /// Distance of the hit from the middle.
+            /// Distance from the middle.
             miss: f64 => lower("miss").unit("cm").at_least(0),
         }
     }
@@ -234,9 +234,9 @@ mod tests {
         #[check(Throw::is_possible)]
         struct Throw {
             ..hit: Hit,
-            /// Number of earlier throws of the same player.
+            /// Number of throws before, of the same player.
             before: u32 => neither("throws before"),
-            /// Whether the throw counts.
+            /// Whether it counts.
             counts: bool => higher("counted"),
             /// Message of the player.
             said: Option<String> => neither("words"),

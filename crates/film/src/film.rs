@@ -14,14 +14,14 @@ use tolman_robot::{Landmark, Position};
 /// Distance within which a node that moved is not redrawn, m.
 const STILL: f64 = 0.05;
 
-/// Number of actions during which the map is recorded each time. Later it is recorded less often.
+/// Number of actions after each of which the map is recorded. Later it is recorded less often.
 const DENSE: u32 = 200;
 
 /// Records an outing: the system's notes, its belief and its map after every action.
 #[derive(Clone, Debug)]
 pub struct Film {
     actions: u32,
-    /// The map is recorded after every such action.
+    /// Number of actions between two records of the map.
     every: u32,
     thoughts: Notes,
     belief: Belief,
@@ -43,11 +43,11 @@ pub struct Film {
 /// Knowledge of a system at one moment, in the world's frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Glimpse {
-    /// Positions of the places of its map.
+    /// Positions of the places of its map, m.
     pub places: Vec<Point>,
-    /// The ways between them, each listed once.
+    /// Ends of the ways between the places, m; each way is listed once.
     pub ways: Vec<[Point; 2]>,
-    /// Believed positions, the most likely first.
+    /// Believed positions, m, the most likely first.
     pub belief: Vec<Point>,
 }
 
@@ -80,7 +80,7 @@ impl Film {
         film
     }
 
-    /// Records the map after every `every`-th action alone: some maps take long to draw.
+    /// Records the map only after every `every`-th action, because some maps take long to draw.
     #[must_use]
     pub fn recording_every(mut self, every: u32) -> Self {
         self.every = every;
@@ -94,7 +94,7 @@ impl Film {
         last.map_or(0, |sample| sample.value as usize)
     }
 
-    /// Returns the number of places or poses that the system took for possible after its last
+    /// Returns the number of places or poses that the system considered possible after its last
     /// action.
     #[must_use]
     pub fn guess_count(&self) -> usize {
@@ -166,8 +166,8 @@ impl Film {
         let sites = outing.sites();
         for place in &map.places {
             let site = sites.get(&place.id).copied();
-            // If the map has no positions, a place is where the robot was when it believed it was
-            // there.
+            // If the map has no positions, a place is shown where the robot was when the system
+            // first believed that it was there.
             let met = self.met.get(&place.id).copied();
             let told = place.position;
             let told = told.map(|at| self.world_from_map.transform(at));
@@ -176,7 +176,7 @@ impl Film {
             };
             let node = self.nodes.entry(place.id);
             let node = node.or_insert_with(|| MapNode::new(place.id, at, step));
-            // A place that comes back was only out of sight.
+            // A place that reappears was only out of sight.
             node.died = None;
             node.move_to(step, at, STILL);
             // Many nodes may be at the goal; only one is labelled.
@@ -200,7 +200,7 @@ impl Film {
         for (a, b) in wanted {
             let edge = self.edges.entry((a, b));
             let edge = edge.or_insert_with(|| MapEdge::new(a, b, step));
-            // An edge that comes back is another one.
+            // An edge that reappears is a new edge.
             if edge.died.is_some() {
                 self.gone.push(mem::replace(edge, MapEdge::new(a, b, step)));
             }

@@ -1,7 +1,7 @@
 //! Replays of runs in the arena.
 //!
-//! A [`Film`] watches any outing: its way, its thoughts, its belief, and how its map grew. A
-//! [`Glimpse`] is what it knows at one moment. A [`Recorder`] watches one episode of a brain.
+//! A [`Film`] records any outing: its path, its notes, its belief and its map as it grew. A
+//! [`Glimpse`] is what it knows at one moment. A [`Recorder`] records one episode of a brain.
 //!
 //! # A mouse that learns
 //!

@@ -43,7 +43,7 @@ pub struct Recorder<'a> {
     corridor: Notes,
     thoughts: Notes,
     belief: Belief,
-    /// Positions of the nodes of the robot's map, by id.
+    /// Positions of the nodes of the robot's map, m, by id.
     nodes: &'a [Point],
     bumps: Marks,
     failures: Marks,
@@ -78,7 +78,7 @@ impl<'a> Recorder<'a> {
         self
     }
 
-    /// Records the brain's thoughts when it chose the action that begins after `step`.
+    /// Records the brain's notes and belief when it chose the action that begins after `step`.
     fn overhear(&mut self, step: u32, words: &str, belief: &[Guess]) {
         if !words.is_empty() {
             self.thoughts.say(step, words);

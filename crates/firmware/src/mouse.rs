@@ -43,7 +43,7 @@ pub struct Mouse<'a> {
     task: Task<'a>,
 }
 
-/// The present task. There is one at a time, so that all tasks can share the same memory.
+/// Task at present. There is only one at a time, so that all tasks can share the same memory.
 #[derive(Clone, Debug)]
 #[expect(clippy::large_enum_variant, reason = "there is no heap to put it on")]
 enum Task<'a> {
@@ -54,7 +54,7 @@ enum Task<'a> {
     },
     Localize {
         poses: PoseSet<MAZE>,
-        /// Number of cells that it may still drive to find out where it is.
+        /// Number of cells that the mouse may still drive to localize.
         patience: u8,
     },
 }

@@ -12,7 +12,7 @@
 //! 3. The prediction is fitted to the map: the surfaces that all places have seen.
 //! 4. A [`PlaceGraph`] keeps the places, each with its outline, in a
 //!    [`PoseGraph`](crate::pose_graph::PoseGraph) whose closures are the places that a fit has
-//!    recognized. While it does not know where it is, it follows several hypotheses.
+//!    recognized. While the robot's pose is unknown, the graph follows several hypotheses.
 
 mod config;
 mod fit;

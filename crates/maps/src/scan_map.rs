@@ -1,5 +1,5 @@
-//! Places learned from scans, a compass and the odometry, each place once: a map that stops
-//! growing.
+//! A map of places, learned from scans, a compass and the odometry. It has each place once, so it
+//! stops growing.
 //!
 //! In the order data flows:
 //!

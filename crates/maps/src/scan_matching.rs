@@ -1,5 +1,5 @@
-//! The way of a robot and a map of points, by scans that are matched to earlier ones: the dense
-//! baseline.
+//! The dense baseline: the trajectory of a robot and a map of points, from scans that are matched
+//! to earlier ones.
 //!
 //! In the order data flows:
 //!

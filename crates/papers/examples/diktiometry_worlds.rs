@@ -28,10 +28,10 @@ use walk::{
     COMPASS, ODOMETRY, ROUGH, Scripted, Walk, alike, blocks, braided_corridors, open, painted,
 };
 
-/// A table that can be asked for.
+/// A table of the example.
 struct Table {
     name: &'static str,
-    /// Number of runs of a row unless told otherwise.
+    /// Default number of runs of a row.
     runs: u64,
     print: fn(u64),
 }

@@ -73,7 +73,7 @@ const WAY: &[(f64, f64)] = &[
     (6.0, 1.2),
 ];
 
-/// Way and turn from scan to scan, m and rad.
+/// Minimum distance (m) and turn (rad) between two scans.
 const APART: (f64, f64) = (0.4, 0.35);
 
 fn main() -> Result<(), Box<dyn Error>> {

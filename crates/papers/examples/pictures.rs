@@ -54,7 +54,7 @@ fn main() -> Result<(), Anything> {
     Ok(())
 }
 
-/// Returns a node in every third cell, edges to the neighbours that are open.
+/// Returns a graph with a node in every third cell, and edges to the neighbours that are open.
 fn learned_graph(course: &Course) -> Figure {
     let grid = course.maze.grid();
     let mut graph = GraphPicture::new();

@@ -125,7 +125,7 @@ fn drive() -> Result<(Vec<Pose>, Vec<G2oEdge>), Box<dyn Error>> {
             steps += 1;
             let moved = truth[truth.len() - 1].between(solo.truth().pose);
             if moved.position.coords.norm() > APART.0 || moved.heading.radians().abs() > APART.1 {
-                // The error of this many steps, and a little more along a bend.
+                // Error of the odometry over the steps, and a little more in a bend.
                 let many = f64::from(steps);
                 let (along, turn) = (0.003 * many.sqrt(), 0.003 * many.sqrt());
                 edges.push(edge(truth.len() - 1, truth.len(), rolled, along, turn));

@@ -1,4 +1,4 @@
-//! The playground as JavaScript has it: texts and JSON in both directions.
+//! Interface of the playground for JavaScript: texts and JSON in both directions.
 
 use serde::Serialize;
 use tolman_arena::family::Family;
@@ -8,7 +8,7 @@ use wasm_bindgen::prelude::wasm_bindgen;
 use crate::{Playground, PlaygroundError, Session, Sketch};
 
 fn json(value: &impl Serialize) -> String {
-    // Only a key that is not text, or a type that refuses, cannot be written. Neither exists here.
+    // Writing fails only for a key that is not text, or a type that refuses. Neither exists here.
     serde_json::to_string(value).unwrap_or_default()
 }
 
@@ -49,19 +49,19 @@ impl PlaygroundPage {
         json(&told.collect::<Vec<_>>())
     }
 
-    /// Takes the text of a maze.
+    /// Replaces the maze by that of a text.
     pub fn read(&mut self, maze: &str) -> Result<(), String> {
         self.sketch = told(Sketch::read(maze))?;
         Ok(())
     }
 
-    /// Draws a maze of a family.
+    /// Replaces the maze by a drawing of a family.
     pub fn draw(&mut self, family: &str, size: u16, seed: u32) -> Result<(), String> {
         self.sketch = told(Sketch::drawn(family, size, seed.into()))?;
         Ok(())
     }
 
-    /// Takes a maze without inner walls.
+    /// Replaces the maze by one without inner walls.
     pub fn clear(&mut self, size: u16) {
         self.sketch = Sketch::empty(size);
     }
@@ -76,12 +76,12 @@ impl PlaygroundPage {
         }
     }
 
-    /// Moves the start.
+    /// Moves the start to a cell.
     pub fn set_start(&mut self, x: u16, y: u16) {
         self.sketch.set_start(Cell::new(x, y));
     }
 
-    /// Moves the goal.
+    /// Moves the goal to a cell.
     pub fn set_goal(&mut self, x: u16, y: u16) {
         self.sketch.set_goal(Cell::new(x, y));
     }
@@ -109,7 +109,7 @@ impl PlaygroundPage {
         Ok(json(&self.session()?.advance(steps as usize)))
     }
 
-    /// Puts the robot elsewhere.
+    /// Lifts the robot and puts it down at a position, m.
     pub fn put_down(&mut self, x: f64, y: f64) -> Result<String, String> {
         let state = told(self.session()?.put_down(x, y))?;
         Ok(json(&state))

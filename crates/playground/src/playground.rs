@@ -22,21 +22,21 @@ pub enum PlaygroundError {
     /// A family has no such maze.
     #[error("no maze of the family {name} can be drawn: {source}")]
     Family {
-        /// The family's name.
+        /// Name of the family.
         name: String,
-        /// The underlying error.
+        /// Reason why the family has no such drawing.
         source: BoxError,
     },
     /// There is no such system.
     #[error("there is no system {name}; choose one of the list")]
     System {
-        /// The name that was given.
+        /// Name that was given.
         name: String,
     },
     /// System, robot and maze do not fit together, or the robot cannot stand at a position.
     #[error("{0}: {source}", source = root(.0))]
     Contest(#[from] ContestError),
-    /// A cell has no way out.
+    /// The cell has no way out.
     #[error("this cell is walled in: choose one with a way out")]
     WalledIn,
     /// The run cannot be shown.
@@ -56,7 +56,7 @@ fn root(error: &dyn core::error::Error) -> String {
 /// A system that can be chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct SystemChoice {
-    /// Its name in tables.
+    /// Name of the system, as in tables.
     pub name: &'static str,
     /// Task of the system, in one line.
     pub about: &'static str,
@@ -84,7 +84,7 @@ impl Playground {
         systems
     }
 
-    /// Puts a system's own robot at the start of a maze. `seed` is that of all noise.
+    /// Puts a system's own robot at the start of a maze. `seed` seeds all noise.
     ///
     /// # Errors
     /// [`PlaygroundError`] if there is no such system, or it cannot work in that maze.

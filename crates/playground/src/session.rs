@@ -8,7 +8,7 @@ use tolman_replay::json;
 use crate::verdict::{TaskVerdict, explored, found, home};
 use crate::{PlaygroundError, Tone};
 
-/// A system that learns a maze while somebody looks on.
+/// A system that learns a maze on the page, a few time steps at a time.
 #[derive(Debug)]
 pub struct Session {
     contestant: Contestant,
@@ -32,8 +32,8 @@ pub enum SessionTask {
     Home,
 }
 
-/// The map is recorded after every such action: that of the better MSLST takes as long as ten
-/// actions.
+/// Number of actions between two records of the map. Recording that of the better MSLST takes as
+/// long as ten actions.
 const EVERY: u32 = 4;
 
 /// State of a session.
@@ -49,11 +49,11 @@ pub struct SessionState {
     pub step_s: f64,
     /// Number of places of the map when it was recorded last.
     pub places: usize,
-    /// Number of places or poses that the system takes for possible.
+    /// Number of places or poses that the system considers possible.
     pub guesses: usize,
-    /// Present activity, or the result of the task, in one or two sentences.
+    /// Description of the present activity, or of the task's result, in one or two sentences.
     pub told: String,
-    /// Tone of these words.
+    /// Tone of the description.
     pub tone: Tone,
 }
 
@@ -202,7 +202,7 @@ pub(crate) fn count(number: usize, thing: &str) -> String {
     }
 }
 
-/// FNV-1a, 64 bits.
+/// Hash of the type FNV-1a, 64 bits.
 struct Fnv(u64);
 
 impl Default for Fnv {

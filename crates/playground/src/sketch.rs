@@ -22,20 +22,20 @@ pub struct SketchPlan {
     pub height: u16,
     /// All edges between cells and of the border, each once.
     pub walls: Vec<SketchWall>,
-    /// The start.
+    /// Cell of the start; `None` if there is none.
     pub start: Option<[u16; 2]>,
-    /// The goal's cells.
+    /// Cells of the goal.
     pub goals: Vec<[u16; 2]>,
-    /// Reason why no robot can be sent into it; `None` if one can.
+    /// Reason why no robot can be sent into the maze; `None` if one can.
     pub fault: Option<String>,
 }
 
 /// An edge of a [`SketchPlan`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SketchWall {
-    /// A cell beside it.
+    /// Cell beside the edge.
     pub cell: [u16; 2],
-    /// Its side of that cell.
+    /// Side of that cell on which the edge is.
     pub side: Direction,
     /// Whether a wall stands there.
     pub stands: bool,
@@ -69,7 +69,7 @@ impl Sketch {
         };
         let known = Family::named(&families, family);
         let known = known.ok_or_else(|| cannot("there is no such family".into()))?;
-        // Of families whose worlds are not square: as wide as that, and as high as they go with it.
+        // A family whose worlds are not square gets this width, and the height that belongs to it.
         let [.., (columns, rows)] = known.sizes;
         let share = |side: u16| (side * size).div_ceil(columns.max(rows)).clamp(1, size);
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
@@ -133,7 +133,7 @@ impl Sketch {
     #[must_use]
     pub fn text(&self) -> String {
         let file = MazeFile::from(self.maze.clone());
-        // A drawing alone does not say where a robot looks that starts before a wall.
+        // A drawing alone does not give the heading of a robot that starts before a wall.
         tolman_maze::write(&file, Format::Tolman).unwrap_or_else(|_| self.maze.to_string())
     }
 

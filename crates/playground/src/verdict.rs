@@ -9,9 +9,9 @@ use crate::session::count;
 /// Result of a task in words.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TaskVerdict {
-    /// One or two sentences.
+    /// Description of the result, in one or two sentences.
     pub told: String,
-    /// Tone of these words.
+    /// Tone of the description.
     pub tone: Tone,
 }
 
@@ -23,7 +23,7 @@ pub enum Tone {
     Good,
     /// The run went wrong.
     Bad,
-    /// Neither.
+    /// The result is neither good nor bad.
     Neutral,
 }
 

@@ -21,17 +21,17 @@ pub struct Difference {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Differs {
-    /// Command of the robot.
+    /// Commands of the robot.
     Command,
-    /// Pose of the robot.
+    /// Poses of the robot.
     Pose,
     /// Whether the robot touched something.
     Bump,
-    /// Only that the first trace ends here.
+    /// Length of the traces: the first trace ends here.
     FirstEnds,
-    /// Only that the second trace ends here.
+    /// Length of the traces: the second trace ends here.
     SecondEnds,
-    /// One trace has this robot, the other does not.
+    /// Robots: only one trace has this robot.
     Robots,
 }
 

@@ -25,33 +25,33 @@ pub enum EncodeError {
     /// The time step is not positive.
     #[error("the time step is {step_s} s; give one above 0")]
     Step {
-        /// The time step, s.
+        /// Time step that was given, s.
         step_s: f64,
     },
     /// A number is not finite.
     #[error("{what} {index} holds a number that is not finite; give finite numbers")]
     NotFinite {
-        /// Kind of thing.
+        /// Kind of the item, such as a pose.
         what: String,
-        /// Index of the thing, from 0.
+        /// Index of the item, from 0.
         index: usize,
     },
     /// Steps that must ascend do not.
     #[error("{what} {index} is of an earlier step than the one before it; sort them by step")]
     Order {
-        /// Kind of thing.
+        /// Kind of the item.
         what: String,
-        /// Index of the thing, from 0.
+        /// Index of the item, from 0.
         index: usize,
     },
     /// A reading does not have one range per beam.
     #[error("{what} {index} has {found} ranges; give {expected}, one per beam")]
     Ranges {
-        /// Kind of thing.
+        /// Kind of the reading.
         what: String,
-        /// Index of the thing, from 0.
+        /// Index of the reading, from 0.
         index: usize,
-        /// Number of ranges it has.
+        /// Number of ranges in the reading.
         found: usize,
         /// Number of beams.
         expected: usize,
@@ -61,17 +61,17 @@ pub enum EncodeError {
         "edge {index} of the map `{map}` names node {id}, which does not exist; add the node or remove the edge"
     )]
     NoNode {
-        /// The map's name.
+        /// Name of the map.
         map: String,
-        /// Index of the edge.
+        /// Index of the edge, from 0.
         index: usize,
-        /// The id it names.
+        /// Id of the missing node.
         id: u32,
     },
     /// Two nodes share an id.
     #[error("two nodes of the map `{map}` have the id {id}; number them")]
     NodeTwice {
-        /// The map's name.
+        /// Name of the map.
         map: String,
         /// Id that two nodes share.
         id: u32,
@@ -82,11 +82,11 @@ pub enum EncodeError {
          column and a width above 0"
     )]
     Grid {
-        /// The field's name.
+        /// Name of the field.
         field: String,
         /// Number of its columns.
         columns: u32,
-        /// The side of a cell, m.
+        /// Side of a cell, m.
         pitch: f64,
     },
 }
@@ -159,7 +159,7 @@ fn track(track: &RobotTrack, bounds: &Bounds) -> Result<Value, EncodeError> {
     ascend("lift", track.lifts.iter().copied())?;
     let poses = track.poses.iter().map(|pose| rounded(bounds, *pose));
     let along = |axis: usize| blob::changes(poses.clone().map(|pose| i32::from(pose[axis])));
-    // A turn past the seam is also a small change.
+    // A turn across ±π is also a small change.
     let headings = poses.clone().scan(0_i32, |before, [_, _, heading]| {
         *before += i32::from(heading.wrapping_sub(*before as u16) as i16);
         Some(*before)
@@ -197,7 +197,7 @@ fn ring(ring: &Ring) -> Value {
     })
 }
 
-/// Largest value of a range in two bytes, and in one.
+/// Maximum value of a range that takes two bytes.
 const FINE: f64 = 65535.0;
 const COARSE: f64 = 255.0;
 
@@ -377,7 +377,7 @@ fn series(series: &TimeSeries) -> Result<Value, EncodeError> {
     } else {
         object["values"] = blob::floats(values()).into();
     }
-    // A value at every step from the first on needs no list of steps.
+    // Values at every step from the first on need no list of steps.
     if let Some(first) = steps().next()
         && steps()
             .zip(first..)

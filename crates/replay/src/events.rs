@@ -15,7 +15,7 @@ use super::{
 /// Something that happens in a replay at a step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReplayEvent<'a> {
-    /// The step at which it happens.
+    /// Step at which it happens.
     pub step: u32,
     /// Subject, as a path: `/scene`, `/ROBOT/map/NAME`.
     pub topic: String,
@@ -40,7 +40,7 @@ pub enum EventContent<'a> {
         frame: String,
         /// Id, unique on its topic.
         id: String,
-        /// What is drawn.
+        /// Drawing of the thing.
         drawing: FloorDrawing,
     },
     /// The thing with this id on this topic disappears.
@@ -59,18 +59,18 @@ pub enum EventContent<'a> {
         /// Ranges, m.
         ranges: &'a [f64],
     },
-    /// A number changes.
+    /// A number of a time series changes.
     Number {
         /// New value.
         value: f64,
         /// Unit; `%` means that the value is a share.
         unit: &'a str,
     },
-    /// Something is said.
+    /// A note or mark begins.
     Text {
-        /// The robot and the subject.
+        /// Name of the robot and of the layer.
         source: String,
-        /// Words.
+        /// Text of the note or mark.
         text: &'a str,
     },
 }
@@ -92,7 +92,7 @@ pub enum FloorDrawing {
 /// A disc on the floor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FloorDisc {
-    /// Middle.
+    /// Middle of the disc, m.
     pub centre: Point,
     /// Radius, m.
     pub radius: f64,
@@ -117,8 +117,8 @@ const NODE: f64 = 0.05;
 /// Radius of believed positions, m.
 const BELIEVED: f64 = 0.1;
 
-/// Returns the events of a replay in order of their steps. A colour tells to whom a thing belongs.
-/// Fields over the floor are left out.
+/// Returns the events of a replay in order of their steps. The colour of a thing shows whether it
+/// belongs to the world, to a learned map or to a robot. Fields over the floor are left out.
 ///
 /// ```
 /// use tolman_replay::{EventContent, Replay, RobotTrack, Scenery, events};

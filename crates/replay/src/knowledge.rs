@@ -23,11 +23,11 @@ use super::Fact;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MapGrowth {
-    /// Name of the layer: `state graph`.
+    /// Name of the layer, such as `state graph`.
     pub name: String,
-    /// The nodes in any order, with unique ids.
+    /// Nodes of the map, in any order, with unique ids.
     pub nodes: Vec<MapNode>,
-    /// The edges.
+    /// Edges between the nodes.
     pub edges: Vec<MapEdge>,
 }
 
@@ -36,13 +36,13 @@ pub struct MapGrowth {
 pub struct MapNode {
     /// Id by which edges and beliefs name it.
     pub id: u32,
-    /// First position, in the world's frame.
+    /// First position, in the world's frame, m.
     pub position: Point,
     /// Step at which it appears.
     pub born: u32,
     /// Step at which it disappears; `None` if it stays.
     pub died: Option<u32>,
-    /// A word or two beside it; empty for none.
+    /// Label beside the node, a word or two; empty for none.
     pub label: String,
     /// Facts shown when it is clicked.
     pub facts: Vec<Fact>,
@@ -71,7 +71,7 @@ impl MapNode {
         }
     }
 
-    /// Returns its last position.
+    /// Returns the node's last position.
     #[must_use]
     pub fn latest(&self) -> Point {
         let last = self.moves.last();
@@ -91,7 +91,7 @@ impl MapNode {
 /// A node's new position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NodeMove {
-    /// The step from which it holds.
+    /// Step from which the position holds.
     pub step: u32,
     /// Position of the node, m.
     pub position: Point,
@@ -102,7 +102,7 @@ pub struct NodeMove {
 pub struct Exemplar {
     /// Heading of bearing 0 of the scan.
     pub heading: Heading,
-    /// The scan. Its ranges are drawn to 1/255 of the largest.
+    /// Scan of the node. Its ranges are drawn to 1/255 of the largest.
     pub scan: Scan,
 }
 
@@ -113,13 +113,13 @@ pub struct MapEdge {
     pub a: u32,
     /// Id of the node that it leads to.
     pub b: u32,
-    /// Meaning, which decides its style.
+    /// Meaning of the edge, which decides its style.
     pub kind: EdgeKind,
     /// Step at which it appears.
     pub born: u32,
     /// Step at which it disappears; `None` if it stays.
     pub died: Option<u32>,
-    /// A word or two, shown when one of its nodes is clicked; empty for none.
+    /// Label, a word or two, shown when one of the nodes is clicked; empty for none.
     pub label: String,
 }
 
@@ -212,9 +212,9 @@ const LEAST_WEIGHT: f64 = 0.01;
 /// One state of a [`Belief`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct BeliefAt {
-    /// First step at which this holds.
+    /// First step at which the belief holds.
     pub step: u32,
-    /// The whole belief; empty for none.
+    /// Shapes of the whole belief; empty for no belief.
     pub shapes: Vec<Shape>,
 }
 
@@ -223,43 +223,43 @@ pub struct BeliefAt {
 pub enum Shape {
     /// The robot may be at this position.
     Point {
-        /// Position of the node, m.
+        /// Position in the world, m.
         position: Point,
-        /// Probability.
+        /// Probability of the position, 0 … 1.
         weight: f64,
     },
     /// The robot may have this pose.
     Pose {
-        /// Pose.
+        /// Pose in the world.
         pose: Pose,
-        /// Probability.
+        /// Probability of the pose, 0 … 1.
         weight: f64,
     },
     /// The robot may be at this node of a map.
     Node {
-        /// The node's id.
+        /// Id of the node.
         id: u32,
-        /// Probability.
+        /// Probability of the node, 0 … 1.
         weight: f64,
     },
     /// The robot is inside this axis-aligned box.
     Box {
-        /// South-west corner.
+        /// South-west corner of the box, m.
         min: Point,
-        /// North-east corner.
+        /// North-east corner of the box, m.
         max: Point,
-        /// Probability.
+        /// Probability that the robot is in the box, 0 … 1.
         weight: f64,
     },
     /// The robot is near this position: an ellipse of uncertainty.
     Ellipse {
-        /// Its middle.
+        /// Middle of the ellipse, m.
         centre: Point,
-        /// Its semi-axes, m.
+        /// Semi-axes of the ellipse, m.
         semi_axes: [f64; 2],
         /// Direction of the first semi-axis.
         heading: Heading,
-        /// Probability.
+        /// Probability that the robot is in the ellipse, 0 … 1.
         weight: f64,
     },
 }
@@ -268,9 +268,9 @@ pub enum Shape {
 /// room, as digits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Field {
-    /// Name of the layer: `distance to the goal`.
+    /// Name of the layer, such as `distance to the goal`.
     pub name: String,
-    /// The south-west corner of cell 0.
+    /// Position of the south-west corner of cell 0, m.
     pub origin: Point,
     /// Side length of a cell, m.
     pub pitch: f64,
@@ -285,11 +285,11 @@ pub struct Field {
 /// One change of a [`Field`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldChange {
-    /// First step at which this holds.
+    /// First step at which the value holds.
     pub step: u32,
     /// Number of the cell.
     pub cell: u32,
-    /// Its new value, or `None` to remove it.
+    /// New value of the cell, or `None` to remove it.
     pub value: Option<f64>,
 }
 
@@ -307,9 +307,9 @@ pub struct FieldChange {
 pub struct TimeSeries {
     /// Name of the values, such as `coverage`.
     pub name: String,
-    /// Its unit, shown after the number; `%` shows a share in per cent.
+    /// Unit, shown after the number; `%` shows a share in per cent.
     pub unit: String,
-    /// Its values, ascending by step; each holds until the next.
+    /// Values, ascending by step; each holds until the next.
     pub samples: Vec<Sample>,
 }
 
@@ -333,7 +333,7 @@ impl TimeSeries {
 /// One value of a [`TimeSeries`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sample {
-    /// First step at which this holds.
+    /// First step at which the value holds.
     pub step: u32,
     /// Value of the quantity, in its own unit.
     pub value: f64,
@@ -354,7 +354,7 @@ pub struct Sample {
 pub struct Notes {
     /// Subject of the notes, such as `action`.
     pub name: String,
-    /// The words, ascending by step; each holds until the next.
+    /// Notes of the layer, ascending by step; each holds until the next.
     pub notes: Vec<Note>,
 }
 
@@ -379,7 +379,7 @@ impl Notes {
 /// One of [`Notes`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Note {
-    /// First step at which this holds.
+    /// First step at which the note holds.
     pub step: u32,
     /// Text of the note.
     pub text: String,
@@ -395,7 +395,7 @@ pub struct Note {
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Marks {
-    /// Kind of event, which sets the colour.
+    /// Kind of the events, which sets the marks' colour.
     pub kind: Mark,
     /// Name of the events, such as `bump`.
     pub name: String,

@@ -1,10 +1,10 @@
 //! Replays: one HTML file that plays a run, for every system and every robot.
 //!
-//! A [`Replay`] is what the player is given: a static [`Scenery`], and a [`RobotTrack`] for each
-//! robot with its poses. Layers, which are specific to no system, hold what the robot knew and
-//! when. The robot's own layers are the [`MapGrowth`] of the map it learned and its [`Belief`].
-//! Others are [`Field`]s over the floor, [`TimeSeries`] of numbers, [`Notes`] in words and
-//! [`Marks`] on the time line. A new system hands these over and needs no line of JavaScript.
+//! A [`Replay`] is the player's input: a static [`Scenery`], and a [`RobotTrack`] with the poses of
+//! each robot. Layers, which are specific to no system, hold the robot's knowledge over time. The
+//! robot's own layers are the [`MapGrowth`] of the map it learned and its [`Belief`]. Others are
+//! [`Field`]s over the floor, [`TimeSeries`] of numbers, [`Notes`] in words and [`Marks`] on the
+//! time line. A new system hands these over and needs no line of JavaScript.
 //!
 //! Replays come from a [trace](Replay::of_traces) or from a run that was watched. [`page`] makes
 //! the file, and with the feature `mcap` the function `mcap` one for Foxglove. A page that holds

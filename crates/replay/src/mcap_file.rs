@@ -32,7 +32,7 @@ pub enum McapExportError {
     /// The replay itself is invalid.
     #[error(transparent)]
     Replay(#[from] EncodeError),
-    /// The MCAP writer refuses it.
+    /// The MCAP writer refuses the replay.
     #[error("the replay does not fit into MCAP")]
     Write(#[from] McapError),
 }
@@ -99,7 +99,7 @@ const fn schema_name(content: &EventContent<'_>) -> &'static str {
     }
 }
 
-/// Returns the schema of a message, as far as these messages use it.
+/// Returns the schema of a message, with only the fields that these messages use.
 fn schema(name: &str) -> Value {
     let (object, array, number) = ("object", "array", "number");
     let fields: &[(&str, &str)] = match name {

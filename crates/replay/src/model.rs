@@ -14,9 +14,9 @@ pub struct Replay {
     pub facts: Vec<Fact>,
     /// Length of a time step, s. At speed 1×, a second of the run takes a second.
     pub step_s: f64,
-    /// Walls, zones and doors.
+    /// Walls, zones and doors of the world.
     pub scenery: Scenery,
-    /// The robots, one track each; all begin at step 0.
+    /// Robots, one track each. All tracks begin at step 0.
     pub tracks: Vec<RobotTrack>,
     /// Steps that concern all tracks, such as the first at which they differ.
     pub marks: Vec<Marks>,
@@ -84,30 +84,30 @@ impl Fact {
 /// A robot: its pose at every step, and its knowledge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotTrack {
-    /// Name, if there are several: `Avoid`, `first.jsonl`.
+    /// Name of the robot, such as `Avoid` or `first.jsonl`, if there are several.
     pub name: String,
-    /// Its outline.
+    /// Outline of the robot.
     pub body: Body,
-    /// Its range sensor, whose beams the player casts on the walls; `None` for a robot without.
+    /// Range sensor, whose beams the player casts on the walls; `None` for a robot without one.
     pub ring: Option<Ring>,
     /// Readings of the range sensor, for runs with unknown walls. If given, no beams are cast.
     pub scans: Option<Scans>,
-    /// Poses from step 0 on.
+    /// Poses of the robot, from step 0 on.
     pub poses: Vec<Pose>,
-    /// Steps at which the robot was lifted, so that they do not follow from the step before.
-    /// Ascending.
+    /// Steps whose pose does not follow from the step before, because the robot was lifted;
+    /// ascending.
     pub lifts: Vec<u32>,
-    /// Maps that it learned.
+    /// Maps that the robot learned.
     pub maps: Vec<MapGrowth>,
-    /// Believed positions.
+    /// Believed positions of the robot, by layer.
     pub beliefs: Vec<Belief>,
     /// Numbers over the cells of a grid, such as distances to the goal or probabilities of a wall.
     pub fields: Vec<Field>,
-    /// Numbers over time.
+    /// Numbers over time, such as the coverage.
     pub series: Vec<TimeSeries>,
-    /// Words over time.
+    /// Words over time, such as the present action.
     pub notes: Vec<Notes>,
-    /// Events by step.
+    /// Events, such as bumps, marked on the slider.
     pub marks: Vec<Marks>,
 }
 
@@ -137,8 +137,8 @@ impl RobotTrack {
 pub struct Scans {
     /// Geometry of the beams.
     pub ring: Ring,
-    /// The step of each reading, ascending. A reading holds until the next one.
+    /// Step of each reading, ascending. A reading holds until the next one.
     pub steps: Vec<u32>,
-    /// The ranges of each reading, m; `ring.beams` of them.
+    /// Ranges of each reading, m; `ring.beams` of them.
     pub ranges: Vec<Vec<f64>>,
 }

@@ -9,11 +9,11 @@ use super::{Replay, RobotTrack, Shape, ZoneKind};
 /// A stretch of a replay with a caption.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chapter {
-    /// First step of the part.
+    /// First step of the chapter.
     pub from: u32,
-    /// Caption of the part.
+    /// Caption of the chapter.
     pub caption: String,
-    /// Duration, s.
+    /// Duration of the chapter in the animation, s.
     pub seconds: f64,
 }
 
@@ -35,8 +35,9 @@ const FOOT: f64 = 34.0;
 /// Returns the first robot of a replay as an SVG that plays in a loop. It shows the robot's way,
 /// its map as it grew and, after it was first lifted, its belief.
 ///
-/// `chapters` are played in turn and ascend by their first steps. Time passes with the driven
-/// distance, so that slow robots do not bore. Nodes of the map are drawn at their last positions.
+/// `chapters` are played in turn and ascend by their first steps. Time is proportional to the
+/// driven distance, so that a slow robot does not make a long animation. Nodes of the map are drawn
+/// at their last positions.
 ///
 /// The SVG has no script and needs no network. A viewer that does not animate shows the end.
 /// O(poses + map).
@@ -73,7 +74,7 @@ pub fn moving_picture(replay: &Replay, chapters: &[Chapter]) -> String {
     Figure::new("moving", &replay.title, drawing).standalone()
 }
 
-/// The step that each frame shows.
+/// Steps that the frames of an animation show.
 struct Clock {
     /// Step of each frame.
     steps: Vec<u32>,

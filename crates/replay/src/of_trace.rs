@@ -18,7 +18,7 @@ use super::difference::{Difference, first_difference};
 use super::floor::Floor;
 use super::{DoorChange, Fact, Mark, Marks, Replay, RobotTrack, Scenery, SceneryDoor, TimeSeries};
 
-/// A kind of robot that replays can show: its sensor and commands, beyond its body.
+/// A kind of robot that replays can show. It adds the sensor and the commands to the body.
 pub trait Portrait: Recordable {
     /// Returns its range sensor, or `None` if it has none.
     fn ring(config: &Self::Config) -> Option<Ring>;
@@ -94,7 +94,7 @@ pub(super) struct RobotTrace<M: Recordable> {
     pub(super) commands: Vec<M::Command>,
     /// Whether each command ended in a bump.
     pub(super) bumps: Vec<bool>,
-    /// Numbers of the steps after which it was lifted.
+    /// Numbers of the steps after which the robot was lifted.
     lifts: Vec<u32>,
 }
 
@@ -110,9 +110,9 @@ pub enum CompareError {
         "{second} was recorded in another world than {first}; give traces of the same world, or replay each by itself"
     )]
     Worlds {
-        /// The first trace's name.
+        /// Name of the first trace.
         first: String,
-        /// The name of the one that differs from it.
+        /// Name of the trace that differs from it.
         second: String,
     },
     /// The time steps have different lengths.
@@ -120,23 +120,23 @@ pub enum CompareError {
         "the time steps of {second} last {second_us} µs, those of {first} {first_us} µs; replay each by itself"
     )]
     Steps {
-        /// The first trace's name.
+        /// Name of the first trace.
         first: String,
-        /// Its time step, µs.
+        /// Time step of the first trace, µs.
         first_us: u64,
-        /// The name of the one that differs from it.
+        /// Name of the trace that differs from it.
         second: String,
-        /// Its time step, µs.
+        /// Time step of the second trace, µs.
         second_us: u64,
     },
-    /// A robot cannot be built again.
+    /// The robot of a trace cannot be built again.
     #[error("{trace}: robot {robot} cannot be built")]
     Robot {
-        /// The trace's name.
+        /// Name of the trace.
         trace: String,
-        /// Index of the robot.
+        /// Index of the robot, from 0.
         robot: usize,
-        /// The underlying error.
+        /// Reason why the robot cannot be built.
         source: Box<dyn core::error::Error + Send + Sync>,
     },
 }
@@ -233,7 +233,7 @@ impl<M: Portrait> Trace<M> {
         scenery
     }
 
-    /// Adds when a door changed by its schedule and from outside. A door waits for a body in its
+    /// Adds the changes of a door, by its schedule and from outside. A door waits for a body in its
     /// way, which the trace does not show. So the replay may show it shut a little too early.
     fn open_and_shut(&self, door: &mut SceneryDoor, schedule: &[DoorEvent]) {
         let scheduled = schedule.iter().map(|event| DoorChange {

@@ -5,10 +5,10 @@ use core::f64::consts::{PI, TAU};
 use tolman_geom::{Point, Pose};
 use tolman_sim::Bounds;
 
-/// Largest value of a coordinate: the far edge of the rectangle.
+/// Maximum value of a coordinate: the far edge of the rectangle.
 const FAR: f64 = 65535.0;
 
-/// A full turn, which equals none.
+/// Number by which a full turn is coded; it equals 0.
 const TURN: f64 = 65536.0;
 
 /// Returns a pose inside a rectangle as x, y and heading, rounded to 16 bits each.

@@ -4,13 +4,13 @@ use serde::Serialize;
 use tolman_geom::{Point, Vector};
 use tolman_sim::{Area, Bounds, World};
 
-/// Static things: walls, zones of the floor, and doors. Coordinates are in metres, x to the right
-/// and y upwards.
+/// Static parts of a world: walls, zones of the floor, and doors. Coordinates are in metres, x to
+/// the right and y upwards.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scenery {
-    /// The ends of each wall.
+    /// Ends of each wall, m.
     pub walls: Vec<[Point; 2]>,
-    /// Parts of the floor.
+    /// Zones of the floor.
     pub zones: Vec<SceneryZone>,
     /// Doors of the world.
     pub doors: Vec<SceneryDoor>,
@@ -19,11 +19,11 @@ pub struct Scenery {
 /// A part of the floor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneryZone {
-    /// Meaning, which decides the colour.
+    /// Meaning of the zone, which decides its colour.
     pub kind: ZoneKind,
     /// Name of the zone.
     pub name: String,
-    /// Its corners in order.
+    /// Corners of the zone in order, m.
     pub corners: Vec<Point>,
 }
 
@@ -48,14 +48,14 @@ pub struct SceneryDoor {
     pub name: String,
     /// Ends of the door, m.
     pub ends: [Point; 2],
-    /// Changes, ascending by step; before the first one it is open.
+    /// Changes of the door, ascending by step; before the first one it is open.
     pub changes: Vec<DoorChange>,
 }
 
 /// One change of a [`SceneryDoor`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DoorChange {
-    /// First step at which it holds.
+    /// First step at which the state holds.
     pub step: u32,
     /// Whether the door is open.
     pub state: tolman_sim::DoorState,

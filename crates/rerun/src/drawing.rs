@@ -15,7 +15,7 @@ const HIT: f32 = -2.0;
 /// Colour of the points where beams ended.
 const GREY: Rgba = [0.5, 0.5, 0.5, 1.0];
 
-/// Returns a drawing.
+/// Returns the components of a drawing.
 pub(crate) fn drawing(drawing: &FloorDrawing) -> Vec<SerializedComponentBatch> {
     match drawing {
         FloorDrawing::Segments(segments, ink) => {

@@ -1,4 +1,4 @@
-//! Where in Rerun's tree the events of a replay stand.
+//! Places the events of a replay in Rerun's tree of entities.
 
 use re_log_types::{EntityPath, EntityPathPart};
 use tolman_replay::{EventContent, ReplayEvent, WORLD};

@@ -29,7 +29,7 @@ pub enum RrdExportError {
     /// The rows of an entity do not fit together.
     #[error("the replay does not fit into a chunk of Rerun")]
     Chunk(#[from] Box<ChunkError>),
-    /// The writer refuses it.
+    /// The `.rrd` writer refuses the replay.
     #[error("the replay does not fit into .rrd")]
     Write(#[from] Box<re_log_encoding::EncodeError>),
 }
@@ -58,11 +58,11 @@ struct Recording {
     content: u64,
     /// Number of rows so far, which orders those of one time.
     rows: u64,
-    /// The chunks by their entities.
+    /// Chunks of the recording, by their entities.
     chunks: BTreeMap<(EntityPath, Lifetime), ChunkBuilder>,
 }
 
-/// Rerun keeps what always holds apart from what holds from a time on.
+/// Validity of an entity's rows: Rerun keeps static data apart from data that holds from a time on.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Lifetime {
     Always,
@@ -159,7 +159,7 @@ impl Recording {
         self.chunks.insert(key, chunk);
     }
 
-    /// Returns the file.
+    /// Returns the bytes of the file.
     fn written(self) -> Result<Vec<u8>, RrdExportError> {
         let id = format!("{:016x}", self.content);
         let store = StoreId::new(StoreKind::Recording, APPLICATION, id);

@@ -22,7 +22,7 @@ const MAZES: [(&str, &str, u32); 2] = [
     ("Large", include_str!("../mazes/large-hard.maze"), 500),
 ];
 
-/// One figure of the robot, changed.
+/// Sets one figure of the robot to a value.
 type Change = fn(&mut LaserPioneerConfig, f64);
 
 /// The sweeps: each has a name, its values, and the change that a value makes to the frozen robot.

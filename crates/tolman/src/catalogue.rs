@@ -11,13 +11,13 @@ use crate::systems::{CpmEntry, DiktiometryEntry, GngSlamEntry, MslstBetterEntry,
 pub struct Catalogue {
     /// Name of the program, which reports and replays give as their maker.
     pub program: &'static str,
-    /// The systems that learn maps.
+    /// Systems that learn maps.
     pub systems: Vec<&'static dyn SystemEntry>,
-    /// The families of worlds.
+    /// Families of worlds.
     pub families: Vec<Family>,
-    /// The experiments.
+    /// Experiments, in the order in which they are listed.
     pub experiments: Vec<Entry>,
-    /// The formats of replays beside HTML.
+    /// Formats of replays in addition to HTML.
     pub replay_formats: Vec<ReplayFormat>,
 }
 

@@ -8,7 +8,7 @@ use tolman_replay::Replay;
 pub struct ReplayFormat {
     /// Ending of the file's name, without the dot.
     pub extension: &'static str,
-    /// First bytes of each such file, by which one that may be overwritten is known.
+    /// First bytes of each such file, by which an existing file of the format is recognized.
     pub magic: &'static [u8],
     /// Returns a replay as the bytes of a file.
     pub write: fn(&Replay) -> Result<Vec<u8>, Error>,

@@ -1,4 +1,4 @@
-//! Where a robot starts.
+//! Start poses of robots.
 
 use core::fmt;
 use core::str::FromStr;

@@ -70,17 +70,17 @@ pub trait SystemEntry: Sync {
 /// A file that holds a learned map.
 #[derive(Clone, Debug)]
 pub struct MapText {
-    /// Name in messages.
+    /// Path of the file, for messages.
     pub name: String,
-    /// Name of its system.
+    /// Name of the system that learned the map.
     pub system: String,
-    /// Maze, robot and seed of the map's origin.
+    /// Maze, robot and seed with which the map was learned.
     pub origin: Origin,
     /// Text of the whole file.
     pub text: String,
 }
 
-/// A map as the command shows it.
+/// A learned map, as the command shows it.
 pub trait LearnedMap {
     /// Returns a description of the map, line by line.
     fn lines(&self) -> Vec<String>;
@@ -139,7 +139,7 @@ impl LearnedMap for MapText {
 pub struct Setup<'a> {
     /// Name of the maze or world.
     pub world: &'a str,
-    /// The maze or world.
+    /// Maze or world into which the robot is sent.
     pub terrain: &'a Terrain,
     /// Seed of all random numbers: the same seed gives the same result.
     pub seed: u64,
@@ -211,7 +211,7 @@ impl Setup<'_> {
 /// Settings of a system: a preset and changes to it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Settings<'a> {
-    /// The preset; `None` for the first.
+    /// Name of the preset; `None` for the first.
     pub preset: Option<&'a str>,
     /// Fields by their path, each with its value as TOML.
     pub set: &'a [(String, String)],

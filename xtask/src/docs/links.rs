@@ -7,7 +7,7 @@ use std::path::Path;
 /// A link on a page.
 #[derive(Debug, PartialEq)]
 pub(super) struct Link<'a> {
-    /// Line, counted from 1.
+    /// Number of the line, from 1.
     pub(super) line: usize,
     /// Path, address or `#heading`.
     pub(super) target: &'a str,

@@ -59,7 +59,7 @@ mod tests {
         let text = "\
 #[non_exhaustive]
 #[derive(Clone)]
-/// Grows.
+/// A configuration that can grow.
 pub struct GrowingConfig {
     pub moves: u32,
 }

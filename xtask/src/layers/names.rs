@@ -13,7 +13,7 @@ use crate::workspace::{entries, read};
 #[derive(Debug)]
 struct Allowed {
     name: String,
-    /// The modules that define it, such as `maps::cpm`; once each.
+    /// Modules that define the name, such as `maps::cpm`; once each.
     places: Vec<String>,
 }
 

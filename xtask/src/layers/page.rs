@@ -5,12 +5,12 @@ use anyhow::{Context, Result, bail, ensure};
 /// The parts of the page that are checked.
 #[derive(Debug)]
 pub(crate) struct Page {
-    /// The table `crate | layer | library | may use | what`, one row per crate.
+    /// Rows of the table `crate | layer | library | may use | what`, one per crate.
     pub(crate) crates: Vec<CrateRow>,
-    /// The table `outside crate | seen by | why`.
+    /// Rows of the table `outside crate | seen by | why`.
     pub(super) outside: Vec<OutsideRow>,
-    /// The crates with semantic versioning, without `tolman-`; empty if the page has no such
-    /// sentence.
+    /// Names of the crates with semantic versioning, without `tolman-`; empty if the page has no
+    /// such sentence.
     pub(super) stable: Vec<String>,
 }
 
@@ -18,7 +18,7 @@ pub(crate) struct Page {
 #[derive(Debug)]
 pub(crate) struct CrateRow {
     pub(crate) name: String,
-    /// Layer; `None` for a member outside the layers, on which no crate may depend.
+    /// Layer of the crate; `None` for a member outside the layers, on which no crate may depend.
     pub(super) layer: Option<u8>,
     pub(crate) library: Library,
     pub(super) may_use: Vec<String>,
@@ -27,7 +27,7 @@ pub(crate) struct CrateRow {
 /// Part of the standard library that a crate needs with its default features off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Library {
-    /// Builds for bare metal, with or without an allocator.
+    /// The crate builds for bare metal, with or without an allocator.
     NoStd,
     Std,
 }

@@ -136,7 +136,7 @@ fn edge_fault(page: &Page, row: &CrateRow, used: &str) -> Option<String> {
 fn circle(packages: &[Package]) -> Option<String> {
     let mut left: Vec<&Package> = packages.iter().collect();
     loop {
-        // A package that depends on no other, or on which no other depends, is on no cycle.
+        // A package that depends on no other is on no cycle. Nor is one on which no other depends.
         let inside = |name: &str| left.iter().any(|other| other.name == name);
         let lies_on_none = |package: &Package| {
             package.dependencies.iter().all(|(name, _)| !inside(name))

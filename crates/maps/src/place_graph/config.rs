@@ -5,7 +5,7 @@ use crate::pose_graph::OptimizerConfig;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct PlaceGraphConfig {
-    /// Minimum distance of a new place from all others, m.
+    /// Minimum distance of a new place from all other places, m.
     pub place_distance: f64,
     /// Minimum turn of a new place from all nearer ones, rad: a place is also new if no near one
     /// looks in the same direction.
@@ -14,7 +14,8 @@ pub struct PlaceGraphConfig {
     pub scale_deviation: f64,
     /// Standard deviation of the wheels' curvature, rad/m.
     pub curvature_deviation: f64,
-    /// Minimum share of an outline's points on surfaces of the map for a fit to be believed.
+    /// Minimum share of an outline's points that must lie on surfaces of the map for a fit to be
+    /// believed, 0 … 1.
     pub least_share: f64,
     /// Share of its last looks that contradict the map above which the robot is lost.
     pub most_doubt: f64,
@@ -22,7 +23,7 @@ pub struct PlaceGraphConfig {
     pub most_hypotheses: usize,
     /// Number of new places between two optimizations of the graph.
     pub optimize_every: u32,
-    /// Parameters of these optimizations.
+    /// Parameters of the graph's optimizations.
     pub optimizer: OptimizerConfig,
 }
 

@@ -24,16 +24,17 @@ pub(super) struct Fit {
     pub(super) surprise: f64,
     /// Share of the outline's points that lie on surfaces of the map.
     pub(super) share: f64,
-    /// Share of the outline's points where the map has only surfaces of other colours or
-    /// directions.
+    /// Share of the outline's points where the map has surfaces, but none of their colour and
+    /// direction.
     pub(super) contradicted: f64,
     /// Log-likelihood of the view at this pose, up to a constant.
     pub(super) likelihood: f64,
-    /// Information by the place that first saw the surfaces.
+    /// Information about the pose from the surfaces of each place, by the place that saw them
+    /// first.
     pub(super) by_place: BTreeMap<u32, f64>,
 }
 
-/// Number of rounds of finding the nearest surfaces and moving there.
+/// Number of rounds. Each finds the nearest surfaces and then moves the pose towards them.
 const ROUNDS: u32 = 8;
 
 /// Search distance for surfaces in the first round, m.
@@ -249,7 +250,7 @@ fn is_alike(surface: &Surface, point: &OutlinePoint, normal: Option<Vector>) -> 
     }
     match (surface.colour(), point.colour) {
         (Some(a), Some(b)) => (a[0] - b[0]).abs().max((a[1] - b[1]).abs()) < COLOUR_GATE,
-        // What was heard alone tells nothing of what is seen.
+        // A surface that was only heard says nothing about what is seen.
         (heard, seen) => heard.is_none() && seen.is_none(),
     }
 }
@@ -260,7 +261,7 @@ fn of_arc(arc: &Sounding, surfaces: &[&Surface], pose: Pose, gate: f64) -> Optio
     let ear = pose.compose(arc.mount);
     let axis = ear.heading.unit();
     let cone = libm::cos(arc.half_width + CONE_SLACK);
-    // What is farther away is not a match, and hides none.
+    // A surface farther away is not a match, and hides none.
     let farthest = arc.range + arc_gate(gate) + SLACK;
     let (low, high) = extent(ear, arc.half_width + CONE_SLACK, farthest);
     let mut nearest: Option<(f64, Vector, &Surface)> = None;
@@ -309,7 +310,7 @@ fn extent(ear: Pose, half_width: f64, reach: f64) -> (f64, f64) {
     let [one, other] = [axis - half_width, axis + half_width].map(libm::cos);
     let ahead = ear.heading.unit().x;
     let cone = libm::cos(half_width);
-    // Who hears along the axis of x hears farthest there.
+    // A cone that contains the direction of x reaches farthest there.
     let low = if -ahead >= cone {
         -1.0
     } else {
@@ -327,7 +328,7 @@ fn left(pose: Pose) -> Vector {
     pose.heading.rotate(Vector::new(0.0, 1.0))
 }
 
-/// Returns JᵀWJ and JᵀWr.
+/// Returns the normal equations of the residuals: JᵀWJ and JᵀWr.
 fn normal_equations(residuals: &[Residual]) -> (Matrix3<f64>, Vector3<f64>) {
     let mut information = Matrix3::zeros();
     let mut pull = Vector3::zeros();

@@ -22,11 +22,11 @@ const MOST_COLUMNS: u32 = 40;
 /// Number of rows at the bottom that have to be floor.
 const FLOOR_ROWS: u32 = 3;
 
-/// Number of rows above the foot whose mean colour is that of the thing.
+/// Number of rows above the foot whose mean colour counts as the thing's colour.
 const COLOUR_ROWS: u32 = 3;
 
-/// Share of its brightness by which a pixel differs from the floor; with a smaller difference it is
-/// floor.
+/// Difference of a colour channel from the floor, as a share of the brightness, above which a pixel
+/// is not floor.
 const UNLIKE: f64 = 0.22;
 
 /// Minimum angle below the horizon at which a foot is used, as a tangent: the distance of farther
@@ -46,13 +46,13 @@ fn foot(picture: &Picture, column: u32) -> Option<OutlinePoint> {
         if unlikeness(pixel, floor) > UNLIKE {
             break;
         }
-        // The floor gets darker or lighter with the distance.
+        // The brightness of the floor changes with the distance.
         for (floor, pixel) in floor.iter_mut().zip(pixel) {
             *floor += 0.3 * (pixel - *floor);
         }
     }
     if row + 1 == bottom {
-        // What fills the bottom may be no floor.
+        // The lowest rows may show something other than floor.
         return None;
     }
     let thing = mean(
@@ -74,7 +74,7 @@ fn foot(picture: &Picture, column: u32) -> Option<OutlinePoint> {
     Some(OutlinePoint {
         position: position + picture.camera.position.coords,
         normal: None,
-        // An edge lies anywhere within its row.
+        // The exact height of an edge within its row is unknown.
         deviation: 0.01 + 0.3 * row_height * ahead / down,
         colour: Some([thing[0] / total, thing[1] / total]),
     })

@@ -14,16 +14,16 @@ use super::{Outline, PlaceGraphConfig};
 use crate::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph, PoseGraphError};
 use crate::tangent::difference;
 
-/// View of a robot at its pose, and the way that led there.
+/// A robot's view from its pose, and the odometry of the way there.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SeenThere {
     /// Odometry of its wheels since its last look, step by step.
     pub rolled: Vec<Odometry>,
-    /// Snapshot taken there.
+    /// Snapshot taken at the end of the way.
     pub snapshot: Snapshot,
-    /// Whether the robot was lifted and put down anywhere since its last look, so that odometry
-    /// tells nothing.
+    /// Whether the robot was lifted and put down elsewhere since its last look, so that its
+    /// odometry says nothing.
     pub put_down: bool,
 }
 
@@ -46,22 +46,22 @@ pub struct PlaceGraph {
     surfaces: Surfaces,
     wheels: WheelError,
     whereabouts: Whereabouts,
-    /// Number of new places since the graph was optimized.
+    /// Number of places added since the last optimization of the graph.
     unsettled: u32,
     /// Whether new places are still added.
     grows: bool,
-    /// Number of places at which all are fitted to each other again.
+    /// Number of places at which all places are next fitted to each other.
     relaxes_at: usize,
 }
 
 /// Knowledge of the robot's pose.
 #[derive(Clone, Debug)]
 enum Whereabouts {
-    /// The robot has not looked yet.
+    /// The robot has not taken a snapshot yet.
     Nowhere,
     /// The robot is followed from place to place.
     Known(Here),
-    /// The robot may be at any of these, the likeliest first.
+    /// The robot may be at any of these hypotheses, the likeliest first.
     Lost(Vec<Hypothesis>),
 }
 
@@ -88,7 +88,7 @@ pub enum PlaceGraphError {
         /// Number of the step, from 0.
         step: usize,
     },
-    /// An edge between two places is refused.
+    /// The pose graph refuses an edge between two places.
     #[error("two places cannot be joined")]
     Edge(#[from] PoseGraphError),
 }
@@ -105,7 +105,7 @@ const RELAX_ROUNDS: u32 = 4;
 /// Maximum displacement of a place in each of these rounds, m and rad.
 const RELAX_WITHIN: (f64, f64) = (0.1, 0.05);
 
-/// First number of places at which all are fitted to each other.
+/// Number of places at which all places are fitted to each other for the first time.
 const FIRST_RELAXED: usize = 20;
 
 /// Distance above which two places have others between them, as a multiple of the distance of
@@ -158,7 +158,7 @@ impl PlaceGraph {
     pub fn put_down(mut self, grows: bool) -> Self {
         self.wheels =
             WheelError::unknown(self.config.scale_deviation, self.config.curvature_deviation);
-        // On an empty map there is nothing to look for: its first look is its first place.
+        // An empty map has no places to search: the robot's first look is the first place.
         if !self.places.is_empty() {
             self.whereabouts = Whereabouts::Lost(Vec::new());
         }
@@ -247,7 +247,7 @@ impl PlaceGraph {
                     .learn(&predicted, &off, &covariance, &fit.covariance);
                 here.pose = fit.pose;
                 here.covariance = fit.covariance;
-                // The place to hold on to is the nearest, not the one that was new last, long ago.
+                // The place to continue from is the nearest one, not the one that was new last.
                 let nearest = self.nearest(fit.pose.position);
                 self.link(here.last, nearest);
                 here.last = nearest;
@@ -261,7 +261,7 @@ impl PlaceGraph {
                 self.grow(&mut here, outline, None)?;
             }
         }
-        // While it grows, what contradicts the map is new.
+        // While the map grows, contradictions are new places.
         if !self.grows && here.doubt > self.config.most_doubt {
             let mut anywhere = hypotheses::everywhere(self.graph.poses());
             anywhere.push(Hypothesis::held(here.pose, here.covariance));
@@ -347,7 +347,7 @@ impl PlaceGraph {
         information: Matrix3<f64>,
         kind: PoseEdgeKind,
     ) -> Result<(), PlaceGraphError> {
-        // Where nothing was measured, as along a wall, next to nothing is known.
+        // In a direction without measurements, as along a wall, almost nothing is known.
         let information = information + Matrix3::identity() * 1e-3;
         let information = 0.5 * (information + information.transpose());
         let edge = PoseEdge {
@@ -401,7 +401,7 @@ impl PlaceGraph {
         self.graph.measure_closures_anew();
     }
 
-    /// Looks for the robot among all places.
+    /// Searches for the robot among all places, and returns the knowledge of its pose.
     fn search(
         &self,
         hypotheses: Vec<Hypothesis>,

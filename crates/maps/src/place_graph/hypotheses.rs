@@ -18,9 +18,9 @@ use crate::tangent::difference;
 pub(super) struct Hypothesis {
     pub(super) pose: Pose,
     pub(super) covariance: Matrix3<f64>,
-    /// Log-probability, up to a constant.
+    /// Log-probability of the hypothesis, up to a constant.
     score: f64,
-    /// Number of the robot's looks since it was made.
+    /// Number of the robot's looks since the hypothesis was made.
     pub(super) looks: u32,
 }
 
@@ -115,8 +115,8 @@ pub(super) fn weights(hypotheses: &[Hypothesis]) -> Vec<f64> {
 }
 
 impl Hypothesis {
-    /// Returns the hypothesis that the robot is still where it was believed to be until doubt
-    /// began. It begins likelier than any other.
+    /// Returns the hypothesis that the robot is still at the pose believed before the doubt began.
+    /// Its initial score is above that of any other.
     pub(super) const fn held(pose: Pose, covariance: Matrix3<f64>) -> Self {
         Self {
             pose,
@@ -156,7 +156,7 @@ impl Hypothesis {
 pub(super) fn turned_into(motion: Pose, before: &Matrix3<f64>) -> Matrix3<f64> {
     let back = motion.inverse();
     let column = |unit: Pose| difference(Pose::IDENTITY, back.compose(unit).compose(motion));
-    // Small steps ahead, to the left and round, as they show at the other end.
+    // Small steps ahead, to the left and round, as they appear at the other end of the motion.
     let step = 1e-6;
     let ahead = column(Pose::new(Point::new(step, 0.0), Heading::EAST)) / step;
     let left = column(Pose::new(Point::new(0.0, step), Heading::EAST)) / step;

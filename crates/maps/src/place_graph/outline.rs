@@ -5,30 +5,30 @@ use tolman_robot::{Snapshot, Sounding};
 
 use super::foot_line;
 
-/// The shape of the things round the robot in a snapshot, in the robot's frame.
+/// Shape of the surroundings in a snapshot, in the robot's frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Outline {
-    /// Points on their surfaces.
+    /// Points on surfaces of things.
     pub points: Vec<OutlinePoint>,
     /// Readings of sensors with a cone, where they met something.
     pub arcs: Vec<Sounding>,
-    /// Surfaces that face a range sensor: it heard them nearer than its neighbours did.
+    /// Surfaces that face a range sensor, which heard them nearer than its neighbours did.
     pub faced: Vec<OutlinePoint>,
 }
 
-/// Point of a thing.
+/// A point on the surface of a thing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct OutlinePoint {
-    /// Position, m.
+    /// Position in the robot's frame, m.
     pub position: Point,
-    /// Normal of its surface, a unit vector towards the robot; `None` if its neighbours do not
-    /// determine it.
+    /// Normal of the surface, a unit vector towards the robot; `None` if the neighbouring points do
+    /// not determine it.
     pub normal: Option<Vector>,
-    /// Standard deviation of its distance from the robot, m.
+    /// Standard deviation of the point's distance from the robot, m.
     pub deviation: f64,
-    /// Its shares of red and green; `None` where no camera saw it.
+    /// Shares of red and green in the point's colour; `None` where no camera saw it.
     pub colour: Option<[f64; 2]>,
 }
 
@@ -45,7 +45,7 @@ impl Outline {
     /// Returns the outline that a snapshot shows. O(pixels + soundings).
     #[must_use]
     pub fn of(snapshot: &Snapshot) -> Self {
-        // What touches the sensor has no direction, and what is not a number is not a reading.
+        // A reading of 0 has no direction, and NaN is not a reading.
         let met = |sounding: &&Sounding| {
             sounding.mount.is_finite()
                 && sounding.range > LEAST_RANGE
@@ -182,7 +182,7 @@ impl Line {
             xy += weight(point) * off.x * off.y;
             yy += weight(point) * off.y * off.y;
         }
-        // The direction in which they spread most.
+        // The line runs in the direction in which the points spread most.
         let (sin, cos) = libm::sincos(0.5 * libm::atan2(2.0 * xy, xx - yy));
         let normal = Vector::new(-sin, cos);
         Some(Self { middle, normal })

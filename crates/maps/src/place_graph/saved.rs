@@ -16,7 +16,7 @@ const VERSION: u32 = 1;
 /// Contents of a place graph's file; works with any format of serde's. The robot's pose is left
 /// out: the map comes back with a robot [put down](PlaceGraph::put_down) anywhere on it, and grows.
 ///
-/// [`PlaceGraph`] itself is serialized as this, and refuses invalid contents.
+/// [`PlaceGraph`] itself is serialized in this form. Deserializing refuses invalid contents.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SavedPlaceGraph {
@@ -45,9 +45,9 @@ pub enum SavedPlaceGraphError {
         "the format is {format:?}, version {version}; expected {FORMAT:?}, version {VERSION}: learn the map again"
     )]
     WrongFormat {
-        /// Format that it names.
+        /// Name of the format in the file.
         format: String,
-        /// Version that it names.
+        /// Version of the format in the file.
         version: u32,
     },
     /// A number of the configuration is invalid.
@@ -63,7 +63,7 @@ pub enum SavedPlaceGraphError {
         "place {place} has a number that is not finite, or a deviation that is not positive: learn the map again"
     )]
     NotFinite {
-        /// Its id.
+        /// Id of the place.
         place: usize,
     },
     /// A link joins a place that does not exist.
@@ -71,11 +71,11 @@ pub enum SavedPlaceGraphError {
         "places {from} and {to} are linked, but the number of places is {places}: learn the map again"
     )]
     Link {
-        /// One end.
+        /// Id of the place at one end of the link.
         from: u32,
-        /// The other end.
+        /// Id of the place at the other end.
         to: u32,
-        /// The number of places.
+        /// Number of places in the file.
         places: usize,
     },
     /// An edge is invalid.

@@ -11,7 +11,7 @@ pub(super) struct Surfaces {
     pieces: BTreeMap<Key, Surface>,
 }
 
-/// Column and row of the grid, eighth of the circle, colour.
+/// Key of a surface: column and row of the grid, eighth of the circle, colour.
 type Key = (i32, i32, u8, u8);
 
 /// A piece of a surface: the mean of all points that were seen of it.
@@ -21,9 +21,9 @@ pub(super) struct Surface {
     normal: Vector,
     colour: [f64; 2],
     has_colour: bool,
-    /// A piece of a surface: the mean of all points seen on it.
+    /// Sum of the weights of the points seen on it.
     weight: f64,
-    /// Place that saw it first.
+    /// Id of the place that saw it first.
     pub(super) place: u32,
 }
 
@@ -46,7 +46,7 @@ impl Surface {
         self.has_colour.then_some(self.colour)
     }
 
-    /// Returns the variance of its position along its normal, m².
+    /// Returns the variance of the surface's position along its normal, m².
     pub(super) fn variance(&self) -> f64 {
         1.0 / self.weight + LEAST_DEVIATION * LEAST_DEVIATION
     }
@@ -102,8 +102,8 @@ impl Surfaces {
 fn key(position: Vector, normal: Vector, colour: Option<[f64; 2]>) -> Key {
     let cell = |along: f64| floor_index(along / CELL);
     let eighth = libm::floor(libm::atan2(normal.y, normal.x) / core::f64::consts::FRAC_PI_4);
-    // Whether there is more red than blue and green, and so on: colours that a change of light does
-    // not confuse.
+    // Each comparison of two colour channels, such as more red than blue, survives a change of
+    // light.
     let hue = colour.map_or(0, |[red, green]| {
         let blue = 1.0 - red - green;
         1 + u8::from(red > 0.45) + 2 * u8::from(green > 0.45) + 4 * u8::from(blue > 0.45)

@@ -4,17 +4,18 @@ use tolman_robot::Odometry;
 
 use crate::tangent::difference;
 
-/// Estimate of the constant errors of the wheels: of their common size, and of the difference
-/// between them.
+/// Estimate of the constant errors of the wheels: their common size, and the difference between
+/// them.
 ///
 /// A robot that rolled `distance` and `turn` has truly moved `distance` · (1 + scale), and has
 /// truly turned by `turn` · (1 + scale) + `distance` · curvature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct WheelError {
-    /// Share by which both wheels are too large.
+    /// Relative error of the way by the size of both wheels: 0.01 for wheels that roll 1 % farther
+    /// than they measure.
     pub scale: f64,
-    /// Unnoticed turn, rad per metre.
+    /// Turn that the wheels do not measure, rad per metre, counter-clockwise.
     pub curvature: f64,
     /// Covariance of scale and curvature.
     covariance: Matrix2<f64>,
@@ -31,7 +32,7 @@ pub(super) struct Rolled {
     by_error: Matrix3x2<f64>,
 }
 
-/// Variances by slip: of the way per metre, of the heading per metre and per radian.
+/// Variances caused by slip: of the way per metre, of the heading per metre and per radian.
 const SLIP_WAY: f64 = 0.02 * 0.02;
 const SLIP_TURN: f64 = 0.03 * 0.03;
 /// Variance of a robot that has not moved.
@@ -91,14 +92,14 @@ impl WheelError {
         self.curvature += change.y;
         let known = gain * (before - after) * gain.transpose();
         self.covariance -= 0.5 * (known + known.transpose());
-        // Never quite sure, so that the error may change with the years.
+        // A minimum variance lets the estimate follow slow changes of the wheels.
         for part in 0..2 {
             self.covariance[(part, part)] = self.covariance[(part, part)].max(LEAST_DOUBT);
         }
     }
 }
 
-/// Change of the error that measures its effect.
+/// Change of the error by which its effect on the pose is measured.
 const STEP: f64 = 1e-4;
 
 const LEAST_DOUBT: f64 = 1e-6;

@@ -12,7 +12,7 @@ use super::evidence::{Evidence, Explanation};
 pub struct StandpointBelief {
     /// Probability of each standpoint.
     mass: Vec<f32>,
-    /// Number of looks in a row that nothing fitted.
+    /// Number of consecutive scans that nothing explained.
     surprises: u32,
 }
 
@@ -52,7 +52,7 @@ impl StandpointBelief {
         &self.mass
     }
 
-    /// Returns the most probable standpoint; the first of equals.
+    /// Returns the most probable standpoint. Of equally probable ones, it is the first.
     #[must_use]
     pub fn likeliest(&self) -> Option<u32> {
         let likelier = |best: (u32, f32), next: (u32, f32)| {
@@ -157,7 +157,7 @@ impl StandpointBelief {
     /// scan.
     fn doubt(&mut self, on: &Standpoints, north: &[f64], before: &Self, evidence: &mut Evidence) {
         let anywhere = LIFTED / on.len().max(1) as f64;
-        // A robot that is not sure where it is does not decide whether a wall is new.
+        // A robot that is not sure of its position cannot decide whether a wall is new.
         let new_walls = match before.certainty(on, SURE_WITHIN) > SURE {
             true => NEW_WALLS,
             false => 0.0,

@@ -28,7 +28,7 @@ pub(super) struct Branch {
     pub(super) ends: [usize; 2],
     /// Cells from the first end to the second, both included.
     pub(super) cells: Vec<GridIndex>,
-    /// Least clearance on it, m.
+    /// Minimum clearance along the branch, m.
     pub(super) narrowest: f64,
 }
 
@@ -49,7 +49,7 @@ impl Branch {
         }
     }
 
-    /// Returns its length, m.
+    /// Returns the length of the branch, m.
     pub(super) fn length(&self) -> f64 {
         let step = |pair: &[GridIndex]| {
             let [x, y] = [0, 1].map(|axis| f64::from(pair[1][axis] - pair[0][axis]));
@@ -72,7 +72,7 @@ impl Branches {
         let mut numbers: BTreeMap<GridIndex, usize> = BTreeMap::new();
         let mut passed: BTreeSet<GridIndex> = BTreeSet::new();
         let ends = beside.iter().filter(|(_, next)| next.len() != 2);
-        // What is left then are rings, which begin anywhere.
+        // The remaining cells form rings, which may begin at any cell.
         let rings = beside.iter().filter(|(_, next)| next.len() == 2);
         for (at, next) in ends.chain(rings) {
             if passed.contains(at) {
@@ -84,7 +84,7 @@ impl Branches {
                 let Some(end) = cells.last().copied() else {
                     continue;
                 };
-                // From its other end it was followed before.
+                // This line was already followed from its other end.
                 let again = [cells[cells.len() - 2], end];
                 let is_first = [*at, *way] <= [end, again[0]] || is_ring;
                 if is_first && !(is_ring && passed.contains(way)) {
@@ -243,7 +243,7 @@ impl Branches {
     fn dissolve(&mut self, knot: usize) {
         let mut at_it =
             (0..self.branches.len()).filter(|index| self.branches[*index].ends.contains(&knot));
-        // A ring keeps its knot.
+        // A ring keeps one knot.
         let (Some(one), Some(other)) = (at_it.next(), at_it.next()) else {
             return;
         };

@@ -30,7 +30,7 @@ pub struct ScanChart {
 pub struct ChartParts {
     /// Distance that the robot keeps from walls, m.
     pub radius: f64,
-    /// The places, by id.
+    /// Places of the map, by id.
     pub places: Vec<ScanPlace>,
     /// Links between places, each once, the lower id first, in order.
     pub links: Vec<[u32; 2]>,
@@ -42,14 +42,15 @@ pub struct ChartParts {
         serde(default, skip_serializing_if = "Vec::is_empty")
     )]
     pub start: Vec<Point>,
-    /// Contradiction between its walls, 0 … 1: [`ScanMap::surprise`]. Older files lack it.
+    /// Contradiction between the map's walls, 0 … 1: see [`ScanMap::surprise`]. Older files lack
+    /// it.
     #[cfg_attr(feature = "serde", serde(default))]
     pub surprise: f64,
     /// Side of a cell of the ground, m: [`WallGrid::CELL`].
     pub cell: f64,
     /// Column and row of the first cell.
     pub first: [i32; 2],
-    /// The ground, as [`GroundPlan::rows`] writes it.
+    /// Cells of the ground, as [`GroundPlan::rows`] writes them.
     pub rows: Vec<String>,
 }
 
@@ -57,35 +58,35 @@ pub struct ChartParts {
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum ChartError {
-    /// The radius is not valid for a robot.
+    /// The distance from walls is not valid for a robot.
     #[error("its robot keeps {radius} m from walls, expected 0.01 to 10: learn the map again")]
     Radius {
-        /// The radius, m.
+        /// Distance that the file gives, m.
         radius: f64,
     },
     /// The share of contradicted beams lies outside 0 … 1.
     #[error("its walls contradict one another by {surprise}, expected 0 to 1: learn the map again")]
     Surprise {
-        /// The share.
+        /// Share that the file gives.
         surprise: f64,
     },
-    /// The cells have another size.
+    /// The cells are not as wide as this program's.
     #[error(
         "its cells are {found} m wide, expected {}: learn the map again",
         WallGrid::CELL
     )]
     Cell {
-        /// Their size, m.
+        /// Side of the file's cells, m.
         found: f64,
     },
     /// A place or a goal's position is not finite or too far away.
     #[error("{what} {number} is at ({}, {}) m, which is not a valid position: learn the map again", at.x, at.y)]
     Nowhere {
-        /// Kind of thing at the position.
+        /// Kind of the item at the position.
         what: &'static str,
-        /// Index of that thing, from 0.
+        /// Index of the item, from 0.
         number: usize,
-        /// The position, m.
+        /// Position that the file gives, m.
         at: Point,
     },
     /// A link does not join two places, or is out of order.
@@ -95,9 +96,9 @@ pub enum ChartError {
     Link {
         /// Number of the link, from 0.
         number: usize,
-        /// Its lower end.
+        /// Lower end of the link.
         from: u32,
-        /// Its higher end.
+        /// Higher end of the link.
         to: u32,
         /// Number of places.
         places: usize,
@@ -127,7 +128,7 @@ pub enum ChartError {
         row: usize,
         /// Index of the cell in the row, from 0.
         column: usize,
-        /// The letter found.
+        /// Letter that the file has there.
         letter: char,
     },
 }

@@ -18,7 +18,7 @@ pub struct Clearings<'a> {
 #[derive(Debug)]
 pub struct WayToGap<'a> {
     clearings: &'a Clearings<'a>,
-    /// Number of cells to the gap, by slot.
+    /// Number of cells to the gap, by slot of the grid.
     cells: Vec<u32>,
 }
 
@@ -73,8 +73,8 @@ impl<'a> Clearings<'a> {
         })
     }
 
-    /// Returns whether any ground remains, from any of the places, where the robot could stand and
-    /// has not been. O(cells).
+    /// Returns whether any of the places leads to ground where the robot could stand and has not
+    /// been. O(cells).
     #[must_use]
     pub fn has_gap(&self, places: impl IntoIterator<Item = Point>) -> bool {
         let starts: Vec<GridIndex> = places
@@ -220,7 +220,7 @@ mod tests {
             let metres = way.metres(at(column)).unwrap();
             assert!((metres - expected).abs() < 1e-9, "{column}: {metres}");
         }
-        // Off the computed ones the nearest of them counts, if it is near.
+        // Off the computed cells, the nearest of them counts if it is near.
         assert_eq!(way.metres(at(computed - BY)), way.metres(at(computed)));
         assert_eq!(way.metres(at(computed - BY - 1)), None);
     }
@@ -235,7 +235,7 @@ mod tests {
         let clearings = Clearings::new(&left, RADIUS);
         assert!(clearings.has_gap([middle([2, 1])]));
         assert!(!clearings.has_gap([]));
-        // What lies behind a wall is no gap.
+        // Ground behind a wall is not a gap.
         let apart = drawn(&["#########", "#vvv#...#", "#########"]);
         let clearings = Clearings::new(&apart, RADIUS);
         assert!(!clearings.has_gap([middle([1, 1])]));

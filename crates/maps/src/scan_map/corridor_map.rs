@@ -24,18 +24,18 @@ pub struct CorridorMap {
 /// A place of a [`CorridorMap`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CorridorPlace {
-    /// Its middle, m.
+    /// Middle of the place, m.
     pub position: Point,
-    /// The landmark that stands there.
+    /// Landmark that stands there; `None` if there is none.
     pub landmark: Option<Landmark>,
 }
 
 /// A way of a [`CorridorMap`], which can be gone either way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CorridorWay {
-    /// The places at its ends, by number; they may be the same.
+    /// Numbers of the places at its ends, which may be the same.
     pub ends: [u32; 2],
-    /// Length, m.
+    /// Length of the way, m.
     pub length: f64,
 }
 
@@ -185,9 +185,9 @@ fn landmarks(
     let start = start.map(|at| (index_of(at), Some(Landmark::Start)));
     let mut known = alloc::vec![Some(Landmark::Goal)];
     known.extend(start.map(|(_, landmark)| landmark));
-    // A map that knows its start elsewhere begins where the robot was put after a lift.
+    // A map that knows its start elsewhere begins where the robot was put down after a lift.
     let begins_anywhere = start.is_some();
-    // Of the places where another landmark was sensed the first is nearest to where it stands.
+    // Of the places where another landmark was sensed, the first is nearest to the landmark.
     let places = chart.places().iter().enumerate();
     let others = places.filter_map(move |(number, place)| {
         let is_new = !known.contains(&place.landmark);

@@ -17,7 +17,7 @@ pub(super) struct Evidence {
     pub(super) as_known: f64,
     pub(super) new_walls: f64,
     pub(super) lifted: f64,
-    /// The least misfit.
+    /// Smallest misfit of all standpoints.
     least: f64,
 }
 

@@ -8,10 +8,10 @@ use super::WallGrid;
 /// Position at which a scan fits the walls, near the expected one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ScanFit {
-    /// The position.
+    /// Position at which the scan fits best, m.
     pub(super) at: Point,
-    /// Variance of the position along each axis, m²: unchanged along an axis on which the walls
-    /// tell nothing.
+    /// Variance of the position along each axis, m². It is unchanged along an axis on which the
+    /// walls give no evidence.
     pub(super) variance: Vector,
     /// How well the compared beams meet walls, 0 to 1; 1 if none could be compared.
     pub(super) agreement: f64,
@@ -65,7 +65,7 @@ pub(super) fn fit(
         let prior = 0.5 * (shift.x * shift.x / variance.x + shift.y * shift.y / variance.y);
         SHARE_OF_A_BEAM * score(shift) - prior
     };
-    // First on a wide mesh, then on a narrow one round the best.
+    // The first search uses a wide mesh, the second a narrow one round the best shift.
     let coarse = best_of(Vector::zeros(), window, COARSE, total);
     let shift = best_of(coarse, Vector::new(COARSE, COARSE), STEP, total);
     let [x, y] = [0, 1].map(|axis| {
@@ -191,7 +191,7 @@ fn crossings(grid: &WallGrid, rays: &[Vec<Point>], shift: Vector) -> f64 {
 fn ends_score(grid: &WallGrid, ends: &[Point], shift: Vector) -> f64 {
     let score = |end: &Point| {
         grid.wall_distance(*end + shift).map_or(0.0, |distance| {
-            // Tukey's biweight.
+            // The score is Tukey's biweight.
             let off = (distance / ELSEWHERE).min(1.0);
             (1.0 - off * off) * (1.0 - off * off)
         })

@@ -24,11 +24,11 @@ pub struct GroundPlan {
 /// State of a cell of a [`GroundPlan`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GroundKind {
-    /// No beam has reached it.
+    /// No beam has reached the cell.
     Unknown,
-    /// Beams passed it.
+    /// Beams passed the cell.
     Floor,
-    /// Beams ended in it.
+    /// Beams ended in the cell.
     Wall,
 }
 
@@ -38,7 +38,7 @@ const FARTHEST: i32 = 1_000_000;
 impl GroundKind {
     const ALL: [Self; 3] = [Self::Unknown, Self::Floor, Self::Wall];
 
-    /// Returns the character that stands for it in a file.
+    /// Returns the character that stands for this kind in a file.
     const fn letter(self) -> char {
         match self {
             Self::Unknown => ' ',
@@ -173,7 +173,7 @@ impl GroundPlan {
         }
     }
 
-    /// Returns the first cell, and one past the last.
+    /// Returns the first cell, and the cell one column and one row past the last.
     pub(super) fn bounds(&self) -> [GridIndex; 2] {
         let [column, row] = self.first;
         [self.first, [column + self.columns, row + self.rows]]
@@ -209,7 +209,7 @@ impl GroundPlan {
     }
 }
 
-/// Bits in a word.
+/// Number of bits in a word.
 const WORD: usize = u64::BITS as usize;
 
 fn is_set(bits: &[u64], slot: usize) -> bool {

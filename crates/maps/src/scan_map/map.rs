@@ -8,8 +8,8 @@ use super::chart::view;
 use super::fit::fit;
 use super::{Clearings, ScanChart, ScanMapConfig, WallGrid};
 
-/// Places that are merged while the map grows, the links gone between them, and the walls that
-/// scans met.
+/// A map of places, which are merged as it grows, with the links driven between them and the walls
+/// that scans met.
 ///
 /// Positions are in the map's own frame, whose axes are the compass's, and which has its origin
 /// where the robot was put down.
@@ -32,7 +32,8 @@ pub struct ScanMap {
     agreement: f64,
     /// Share of the beams of the last scan that contradicted the walls.
     contradiction: f64,
-    /// Greatest of the smaller shares of two successive scans.
+    /// Largest surprise so far. The surprise of two consecutive scans is the smaller of their
+    /// contradicting shares.
     surprise: f64,
 }
 
@@ -61,9 +62,9 @@ pub struct Advance<'a> {
     pub sd: Vector,
     /// Heading of the robot.
     pub heading: Heading,
-    /// Ranges of its beams.
+    /// Ranges of the robot's beams.
     pub scan: &'a Scan,
-    /// Landmark at which it stands.
+    /// Landmark at which the robot stands; `None` if there is none.
     pub landmark: Option<Landmark>,
 }
 
@@ -107,7 +108,7 @@ impl ScanMap {
         );
         self.position = fitted.at;
         self.agreement = fitted.agreement;
-        // Once a scan is drawn, errors before it are the map's, not the robot's.
+        // After a scan is drawn, errors before it belong to the map, not to the robot.
         self.variance = fitted.variance;
         self.weigh(seen);
         self.draw(seen);
@@ -135,7 +136,8 @@ impl ScanMap {
         self.at
     }
 
-    /// Returns the agreement of the last scan with known walls, 0 … 1; 1 if it met none.
+    /// Returns the agreement of the last scan with known walls, 0 … 1; 1 if no beam could be
+    /// compared.
     #[must_use]
     pub const fn agreement(&self) -> f64 {
         self.agreement
@@ -250,7 +252,7 @@ impl ScanMap {
         self.grid.visit(self.position, self.config.reach_of_visit);
     }
 
-    /// Finds or makes the place that the robot has reached, and links it with the one before.
+    /// Finds or adds the place that the robot has reached, and links it with the place before.
     fn enter(&mut self, landmark: Option<Landmark>) {
         let before = self.at;
         let here = self.nearest().unwrap_or_else(|| {

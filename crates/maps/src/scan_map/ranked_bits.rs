@@ -12,7 +12,7 @@ pub(super) struct RankedBits {
     len: u32,
 }
 
-/// Bits in a word.
+/// Number of bits in a word.
 const WORD: usize = u64::BITS as usize;
 
 impl RankedBits {
@@ -51,7 +51,7 @@ impl RankedBits {
         if number >= self.len {
             return None;
         }
-        // The last word before which not more are than the number.
+        // This is the last word with at most `number` members before it.
         let index = self.before.partition_point(|before| *before <= number) - 1;
         let mut bits = set_bits(self.words[index]);
         let bit = bits.nth((number - self.before[index]) as usize)?;

@@ -28,7 +28,7 @@ struct RayCell {
 
 /// Resolution of ranges, m.
 pub(super) const RANGE_UNIT: f64 = 0.01;
-/// Value for an unknown range.
+/// Value that stands for an unknown range.
 pub(super) const UNKNOWN: u8 = u8::MAX;
 /// Maximum length to which beams are followed, in [`RANGE_UNIT`]s.
 const LONGEST: f64 = 254.0;
@@ -46,7 +46,8 @@ impl Rays {
             let mut before = [0, 0];
             for step in 1..=steps {
                 let gone = f64::from(step) * STRIDE;
-                // Symmetric, so that a beam along an axis goes as far either way.
+                // Rounding is symmetric, so that beams along an axis reach equally far in both
+                // directions.
                 let along = |along: f64| {
                     let cells = libm::floor(0.5 + gone * along.abs()) as i8;
                     if along < 0.0 { -cells } else { cells }

@@ -6,8 +6,8 @@ use core::cmp::Reverse;
 use super::WallGrid;
 use super::wall_grid::GridIndex;
 
-/// The middle lines of the ground where a robot can stand. Cells are removed from its border on,
-/// unless they hold the ground together or end a line.
+/// The middle lines of the ground where a robot can stand. They remain when cells are removed from
+/// the border on, except those that keep the ground connected or end a line.
 #[derive(Debug)]
 pub(super) struct Skeleton {
     first: GridIndex,

@@ -25,8 +25,8 @@ pub struct Standpoints {
     stands: RankedBits,
     /// Numbers of the standpoints where the landmark of the goal is sensed, in order.
     goals: Vec<u32>,
-    /// Numbers of the standpoints near a point where the goal was sensed, at which it is sensed
-    /// too.
+    /// Numbers of the standpoints near a point where the goal was sensed. A robot senses the goal
+    /// there too.
     sensing_goal: Vec<u32>,
 }
 
@@ -90,7 +90,7 @@ impl Standpoints {
         self.stands.len()
     }
 
-    /// Returns whether there are none.
+    /// Returns whether there are no standpoints.
     #[must_use]
     pub const fn is_empty(&self) -> bool {
         self.len() == 0
@@ -146,7 +146,8 @@ impl Standpoints {
         let shown = self.rays.ranges(self.chart.ground(), cell);
         let beams = (0..).zip(north.iter().zip(shown));
         let new = beams.filter(|(_, (seen, shown))| ends_before(**seen, *shown));
-        // So that no gap is left between two beams, each is as wide as it is far from the next.
+        // Each beam counts as wide as its distance from the next, so that no gap remains between
+        // them.
         new.flat_map(|(beam, (seen, _))| {
             [-0.25, 0.25].map(|aside| {
                 let bearing = self.ring.bearing(beam) + aside * self.ring.spacing;
@@ -156,7 +157,7 @@ impl Standpoints {
         .collect()
     }
 
-    /// Returns the standpoints round a point, with the share that each has of it.
+    /// Returns the four standpoints round a point, each with its weight in bilinear interpolation.
     pub(super) fn around(&self, point: Point) -> [(Option<u32>, f64); 4] {
         let scaled = (point - middle([0, 0])) / Self::SPACING;
         let corner = [scaled.x, scaled.y].map(floor_index);

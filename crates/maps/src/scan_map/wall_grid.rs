@@ -28,22 +28,22 @@ pub(super) type GridIndex = [i32; 2];
 struct GridCell {
     hits: u8,
     passes: u8,
-    /// To the middle of the nearest wall cell, in [`DISTANCE_UNIT`]s; [`FAR`] beyond the reach.
+    /// Distance from the middle of the nearest wall cell, in [`DISTANCE_UNIT`]s; [`FAR`] beyond the
+    /// reach.
     wall: u8,
-    /// Whether the robot has been there, or near and in sight.
+    /// Whether the robot has been in the cell, or near it and in sight of it.
     been: bool,
 }
 
-/// Steps in which distances to walls are kept, m.
+/// Unit in which distances to walls are stored, m.
 const DISTANCE_UNIT: f64 = 0.005;
-/// Value of cells that are farther from any wall than distances are kept.
+/// Value of a cell that is beyond the reach of every wall.
 const FAR: u8 = u8::MAX;
 /// Number of cells added at once on a side that the grid outgrows.
 const MARGIN: i32 = 48;
 /// Error of a beam's end above which it did not end on the known wall, m.
 const ELSEWHERE: f64 = 0.2;
-/// Number of beams that reached a wall's cell of which at least one must have ended there for the
-/// wall to stand.
+/// Maximum number of beams that reached a cell, per beam that ended there, for a wall to stand.
 const PASSES_A_HIT: u32 = 3;
 
 impl WallGrid {
@@ -192,8 +192,7 @@ impl WallGrid {
         }
     }
 
-    /// Notes that the robot has been at a point: ground within `reach` m and in sight needs no
-    /// further visit.
+    /// Marks the ground as visited that lies within `reach` m of a point and in sight of it.
     pub(super) fn visit(&mut self, at: Point, reach: f64) {
         let [low, high] = [-reach, reach].map(|offset| index_of(at + Vector::new(offset, offset)));
         for row in low[1]..=high[1] {
@@ -222,7 +221,7 @@ impl WallGrid {
             .is_some_and(|cell| cell.passes > 0 && f64::from(cell.wall) * DISTANCE_UNIT >= radius)
     }
 
-    /// Returns the first cell, and the one past the last.
+    /// Returns the first cell, and the cell one column and one row past the last.
     pub(super) fn bounds(&self) -> [GridIndex; 2] {
         let [column, row] = self.first;
         [self.first, [column + self.columns, row + self.rows]]
@@ -315,7 +314,7 @@ impl WallGrid {
         }
     }
 
-    /// Grows so that all within `radius` of a point lies on the grid.
+    /// Grows the grid so that it covers everything within `radius` of a point, m.
     fn cover(&mut self, at: Point, radius: f64) {
         let [low, high] =
             [-radius, radius].map(|offset| index_of(at + Vector::new(offset, offset)));

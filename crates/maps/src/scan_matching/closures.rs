@@ -1,4 +1,4 @@
-//! Places that are seen again.
+//! Loop closures: finds places that are seen again.
 
 use alloc::vec::Vec;
 
@@ -15,11 +15,11 @@ use crate::pose_graph::{OptimizerConfig, PoseEdge, PoseEdgeKind, PoseGraph};
 /// State of the search for closures while the robot drives.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Closing {
-    /// Way at the last search.
+    /// Length of the way at the last search, m.
     searched_at: f64,
-    /// Way at the last closure.
+    /// Length of the way at the last closure, m.
     closed_at: f64,
-    /// Matches that wait for one that agrees.
+    /// Matches that become closures when another match agrees.
     waiting: Vec<Candidate>,
 }
 
@@ -37,7 +37,7 @@ struct Reach {
     turn: f64,
 }
 
-/// Old stretches that are tried at most, the nearest first.
+/// Maximum number of old stretches that are tried, the nearest first.
 const STRETCHES: usize = 3;
 /// Margin beyond the window within which old keyframes are considered, m.
 const SIGHT: f64 = 2.5;
@@ -47,13 +47,13 @@ const SEARCHED_POINTS: usize = 200;
 const REFINED_POINTS: usize = 600;
 /// Number of steps of the optimizer while the robot drives.
 const STEPS_ON_THE_WAY: u32 = 3;
-/// Iterations of each.
+/// Number of iterations in each of these steps.
 const ITERATIONS_ON_THE_WAY: usize = 150;
-/// Squared error above which a closure moves the map at once.
+/// Squared error, in standard deviations, above which a closure corrects the map at once.
 const OFF: f64 = 4.0;
 
 impl ScanMatching {
-    /// Looks for places seen again from the last keyframe, and makes the map agree.
+    /// Searches for closures from the last keyframe, and corrects the map if it finds any.
     pub(super) fn close(&mut self) -> Result<(), ScanMatchingError> {
         let Some(config) = self.config.closures.clone() else {
             return Ok(());
@@ -115,7 +115,7 @@ impl ScanMatching {
         }
     }
 
-    /// Turns matches into closures if enough others agree, and corrects the map if they are far
+    /// Turns matches into closures if another match agrees with them. Corrects the map if it is far
     /// off.
     fn accept(
         &mut self,
@@ -143,8 +143,9 @@ impl ScanMatching {
         Ok(())
     }
 
-    /// Searches all closures again on the present map and makes it agree. It stops once the same
-    /// ones are found twice or the rounds are over; then the map does not change any more.
+    /// Searches all closures again on the present map, and corrects the map with them. It stops
+    /// when it finds the same closures twice, or after the maximum number of rounds. After that the
+    /// map does not change any more.
     ///
     /// # Errors
     /// If a measurement does not fit the graph.
@@ -166,7 +167,7 @@ impl ScanMatching {
         Ok(())
     }
 
-    /// Returns the pairs of keyframes that are one place.
+    /// Returns the pairs of keyframes that closures join.
     fn closed(&self) -> Vec<[u32; 2]> {
         let closures = self.graph.closures();
         closures.map(|edge| [edge.from, edge.to]).collect()
@@ -359,7 +360,7 @@ impl ScanMatching {
     }
 }
 
-/// Returns the information of a match, which is never surer than closures are.
+/// Returns the information of a match, limited to the certainty that closures may have.
 fn bounded(information: Matrix3<f64>, config: &ClosureConfig) -> Option<Matrix3<f64>> {
     let (sd, turn_sd) = (config.sd, config.turn_sd);
     let least = Vector3::new(sd * sd, sd * sd, turn_sd * turn_sd);

@@ -45,7 +45,7 @@ pub struct ScanMatchingConfig {
 pub enum ClosureSites {
     /// All along its way.
     Everywhere,
-    /// Only where the caller asks for it: see
+    /// Only at the keyframes that the caller names: see
     /// [`ScanMatching::recognize`](super::ScanMatching::recognize).
     Named,
 }
@@ -61,7 +61,7 @@ pub struct ClosureConfig {
     pub every: f64,
     /// Minimum way after which a place counts as seen again.
     pub least_way: f64,
-    /// Number of keyframes whose scans are put together and looked for.
+    /// Number of the last keyframes whose scans are put together and searched for.
     pub query_keyframes: usize,
     /// Number of keyframes of the old place that they are compared with.
     pub old_keyframes: usize,
@@ -81,15 +81,15 @@ pub struct ClosureConfig {
     pub least_score: f64,
     /// Maximum difference of the corrections of two closures that agree.
     pub agreement: f64,
-    /// Maximum difference of the corrections of two closures that agree, by heading.
+    /// Maximum difference in heading between the corrections of two closures that agree.
     pub agreement_turn: f64,
-    /// The second of two that agree comes after that much way at most.
+    /// Maximum way between two closures that agree.
     pub agreement_way: f64,
-    /// Standard deviation of a closure along each axis at best.
+    /// Minimum standard deviation of a closure along each axis.
     pub sd: f64,
-    /// Standard deviation of a closure's heading at best.
+    /// Minimum standard deviation of a closure's heading.
     pub turn_sd: f64,
-    /// The squared error at which a closure counts a quarter.
+    /// Squared error at which a closure weighs a quarter.
     pub doubt: f64,
     /// Maximum number of rounds in which all closures are searched again at the end, each on the
     /// map that the round before made.
@@ -158,8 +158,7 @@ impl ClosureConfig {
         }
     }
 
-    /// Returns the values for places that the caller names: a few metres apart, as matches that
-    /// agree are.
+    /// Returns the values for places that the caller names, which are a few metres apart.
     #[must_use]
     pub fn places() -> Self {
         Self {

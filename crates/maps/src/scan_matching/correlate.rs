@@ -1,4 +1,5 @@
-//! The best of all poses in a window, by branch and bound: no pose is missed, and few are tried.
+//! Finds the best of all poses in a window, by branch and bound. It misses no pose and evaluates
+//! few.
 //!
 //! Source: E. Olson: Real-Time Correlative Scan Matching, 2009; W. Hess et al.: Real-Time Loop
 //! Closure in 2D LIDAR SLAM, 2016.
@@ -12,27 +13,27 @@ use tolman_geom::{Point, Pose, Vector};
 use super::grid::LikelihoodGrid;
 use super::outline::ScanOutline;
 
-/// Poses that are tried.
+/// Window of poses that are tried.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Window {
     /// Half-width about the expected position, along each axis, m.
     pub(super) reach: f64,
     /// Half-width about the expected heading, rad.
     pub(super) turn: f64,
-    /// Loss of score of a pose at the border, by position.
+    /// Loss of score of a pose at the border of the window, by position.
     pub(super) prior: f64,
-    /// Loss of score of a pose at the border, by heading.
+    /// Loss of score of a pose at the border of the window, by heading.
     pub(super) prior_turn: f64,
 }
 
 /// Distance between the first candidates, cells.
 const WIDE: i32 = 16;
-/// Number of cells of a level, along each axis, that make one of the next.
+/// Number of cells along each axis that make one cell of the next coarser level.
 const BRANCH: i32 = 4;
-/// Distance at which points must not skip a cell between two headings, m.
+/// Distance up to which points move by at most one cell from one heading to the next, m.
 const TYPICAL_RANGE: f64 = 5.0;
 
-/// Some poses of one heading, `width` × `width` cells of them.
+/// Candidate poses of one heading, in a square of `width` × `width` cells.
 struct Candidate {
     bound: f64,
     heading: usize,
@@ -142,7 +143,7 @@ impl Search<'_> {
                 row += width;
             }
         }
-        // The first that is a single pose is better than what is left, by its bound.
+        // The first single pose is better than the rest, by their bounds.
         while let Some(candidate) = open.pop() {
             let next = candidate.level + 1;
             if next == self.levels.len() {
@@ -195,7 +196,7 @@ impl Search<'_> {
 
 impl Ord for Candidate {
     fn cmp(&self, other: &Self) -> Ordering {
-        // Of equals the narrower, then that of the smaller numbers.
+        // Of equal candidates the narrower one comes first, then the one with the smaller numbers.
         let key = |one: &Self| (one.heading, one.shift);
         (self.bound.total_cmp(&other.bound))
             .then_with(|| self.level.cmp(&other.level))

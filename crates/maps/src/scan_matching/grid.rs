@@ -4,8 +4,8 @@ use tolman_geom::{Point, Pose, Vector, floor_index};
 
 use super::outline::ScanOutline;
 
-/// Likelihood of a beam's end at each point, by beams that ended there before: a picture of
-/// surfaces, each as wide as the beams' errors.
+/// Likelihood of a beam's end at each point, by beams that ended there before: an image of
+/// surfaces, blurred by the beams' errors.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LikelihoodGrid {
     cell: f64,
@@ -17,7 +17,7 @@ pub(super) struct LikelihoodGrid {
     cells: Vec<u8>,
 }
 
-/// A bell round a point, for each of a mesh of places that the point may have within its cell.
+/// Likelihoods round a point, for each of several positions of the point within its cell.
 #[derive(Clone, Debug)]
 pub(super) struct Stamp {
     cell: f64,
@@ -27,7 +27,7 @@ pub(super) struct Stamp {
 
 /// Number of positions within a cell that are distinguished along each axis.
 const PLACES: usize = 5;
-/// Standard deviations at which a bell is cut off.
+/// Number of standard deviations at which the likelihood round a point is cut off.
 const BELL: f64 = 3.0;
 /// Maximum number of cells of a grid along an axis.
 const MOST_CELLS: i32 = 6000;
@@ -186,7 +186,7 @@ impl LikelihoodGrid {
     /// that begin at it. O(cells · log width).
     pub(super) fn pooled(&self, width: usize) -> Self {
         let mut pooled = self.clone();
-        // Each pass doubles how far a cell sees.
+        // Each pass doubles the width over which a cell holds the maximum.
         let mut sees = 1;
         while sees < width {
             let step = sees.min(width - sees);
@@ -211,7 +211,7 @@ impl LikelihoodGrid {
     }
 }
 
-/// Makes each cell as great as the other at least.
+/// Sets each cell to the larger of its value and that of the other cell.
 fn raise(cells: &mut [u8], others: &[u8]) {
     for (cell, other) in cells.iter_mut().zip(others) {
         *cell = (*cell).max(*other);

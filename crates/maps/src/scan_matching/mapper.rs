@@ -13,7 +13,7 @@ use super::outline::ScanOutline;
 use super::refine::{self, Prior, Refined};
 use crate::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph, PoseGraphError};
 
-/// Input since the scan before.
+/// One observation of a [`ScanMatching`]: a scan and the odometry since the scan before.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScanStep {
     /// Odometry since the scan before, as the present pose relative to that one. Ignored for the
@@ -32,17 +32,17 @@ pub enum ScanMatchingError {
     /// The odometry is not a number.
     #[error("the odometry of scan {scan} is not finite; leave the scan out")]
     NotFinite {
-        /// The number of the scan, from 0.
+        /// Number of the scan, from 0.
         scan: usize,
     },
-    /// A scan has another number of ranges than beams.
+    /// The number of ranges in a scan is not its number of beams.
     #[error("scan {scan} has {found} ranges for {beams} beams; leave it out")]
     Ranges {
-        /// The number of the scan, from 0.
+        /// Number of the scan, from 0.
         scan: usize,
-        /// The number of ranges.
+        /// Number of ranges in the scan.
         found: usize,
-        /// The number of beams.
+        /// Number of beams of its ring.
         beams: u32,
     },
     /// An edge does not fit the graph.
@@ -50,7 +50,7 @@ pub enum ScanMatchingError {
     Graph(#[from] PoseGraphError),
 }
 
-/// The way of a robot and a map of points. See [the module](super).
+/// The trajectory of a robot and a map of points. See [the module](super).
 #[derive(Clone, Debug)]
 pub struct ScanMatching {
     pub(super) config: ScanMatchingConfig,
@@ -58,7 +58,7 @@ pub struct ScanMatching {
     pub(super) graph: PoseGraph,
     pub(super) keyframes: Vec<Keyframe>,
     pub(super) closing: Closing,
-    /// Each scan by the keyframe before it.
+    /// Pose of each scan, relative to the keyframe before it.
     scans: Vec<Anchored>,
     /// Odometry since the last matched scan, and its length, m.
     rolled: Pose,
@@ -72,9 +72,9 @@ pub struct ScanMatching {
 #[derive(Clone, Debug)]
 pub(super) struct Keyframe {
     pub(super) outline: ScanOutline,
-    /// Way from the beginning, m.
+    /// Length of the robot's way from the beginning, m.
     pub(super) way: f64,
-    /// Number of the scan.
+    /// Number of the scan that became the keyframe, from 0.
     pub(super) scan: usize,
     /// Direction of its surfaces in its own frame: [`ScanOutline::axis`].
     pub(super) axis: Vector,
@@ -91,7 +91,7 @@ impl Keyframe {
     }
 }
 
-/// A pose as seen from a keyframe, with which it moves.
+/// A pose relative to a keyframe, with which it moves.
 #[derive(Clone, Copy, Debug)]
 struct Anchored {
     keyframe: u32,

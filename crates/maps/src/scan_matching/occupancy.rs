@@ -10,7 +10,7 @@ use tolman_robot::Scan;
 pub struct OccupancyGrid {
     /// Side of a cell, m.
     pub cell: f64,
-    /// The south-west corner, m.
+    /// Position of the south-west corner, m.
     pub origin: Point,
     /// Number of columns.
     pub columns: usize,
@@ -49,12 +49,12 @@ impl OccupancyGrid {
         }
     }
 
-    /// Adds a scan from where its laser was. Beams longer than `farthest` m pass up to there and
-    /// end nowhere. O(beams · range / cell).
+    /// Adds a scan that was taken from the pose `map_from_laser`. Beams longer than `farthest` m
+    /// pass up to there and end nowhere. O(beams · range / cell).
     pub fn add(&mut self, scan: &Scan, map_from_laser: Pose, farthest: f64) {
         let most = farthest.min(scan.ring.max_range);
         for (index, range) in (0..).zip(&scan.ranges) {
-            // What hit nothing may as well have been glass.
+            // A beam that hit nothing may have passed through glass.
             if !(*range > 0.0 && *range < scan.ring.max_range) {
                 continue;
             }
@@ -88,7 +88,7 @@ impl OccupancyGrid {
 
     /// Returns the number of beams of a scan that end on the map, and the number of these that end
     /// on the map's floor. Floor is a cell whose share of hits, like that of all beside it, is
-    /// below `wall`. Where walls stand twice, many beams end on floor. O(beams).
+    /// below `wall`. On a map that shows walls twice, many beams end on floor. O(beams).
     #[must_use]
     pub fn contradicted(
         &self,

@@ -1,4 +1,4 @@
-//! Position of another map of the same building on this one, without prior knowledge.
+//! Finds the pose of another map of the same building on this one, without prior knowledge.
 
 use alloc::vec::Vec;
 use core::f64::consts::FRAC_PI_2;
@@ -12,7 +12,7 @@ use super::grid::LikelihoodGrid;
 use super::outline::ScanOutline;
 use super::refine::{self, Prior};
 
-/// One map on another.
+/// Placement of one map on another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapOverlay {
     /// Pose of the other map's origin on this one.
@@ -24,9 +24,9 @@ pub struct MapOverlay {
     pub rival: f64,
 }
 
-/// Stretches of the other map that are looked for, one by one.
+/// Number of stretches of the other map that are searched for, one by one.
 const STRETCHES: usize = 8;
-/// Keyframes to either side of a stretch's middle.
+/// Number of keyframes to either side of a stretch's middle.
 const HALF: usize = 15;
 /// Number of points of a stretch that is placed, and of the whole map that is compared with this
 /// one.
@@ -96,7 +96,7 @@ impl ScanMatching {
         }
     }
 
-    /// Returns all that the map has seen.
+    /// Returns a grid of everything that the map has seen.
     fn whole_grid(&self) -> LikelihoodGrid {
         let mut grid = LikelihoodGrid::default();
         let outlines = self.keyframes.iter().map(|keyframe| &keyframe.outline);

@@ -1,4 +1,4 @@
-//! From the best cell to the best pose: Newton's steps up the likelihood of all points.
+//! Refines the pose from the best cell: Newton's steps up the likelihood of all points.
 
 use tolman_geom::nalgebra::{Matrix3, Vector3};
 use tolman_geom::{Pose, Vector};
@@ -11,7 +11,7 @@ use crate::tangent::{difference, moved};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Refined {
     pub(super) pose: Pose,
-    /// The mean likelihood of the points, 0 … 1.
+    /// Mean likelihood of the points, 0 … 1.
     pub(super) score: f64,
     /// Information of the points alone on the pose: ahead, left, heading.
     pub(super) information: Matrix3<f64>,
@@ -24,14 +24,14 @@ pub(super) struct Prior {
     pub(super) information: Matrix3<f64>,
 }
 
-/// Maximum number of steps.
+/// Maximum number of Newton's steps.
 const STEPS: u32 = 12;
 /// Size of a step at which the search ends, m and rad.
 const SMALL: f64 = 1e-5;
 /// Weight of each point of a scan relative to an independent one: points of one scan err together.
 const INDEPENDENT: f64 = 0.1;
 
-/// The sum of the points' likelihoods near a pose, to second order.
+/// Sum of the points' likelihoods near a pose, to second order.
 struct Local {
     sum: f64,
     uphill: Vector3<f64>,
@@ -55,7 +55,7 @@ pub(super) fn refine(
         let off = difference(prior.pose, pose);
         let value = INDEPENDENT * local.sum - 0.5 * (prior.information * off).dot(&off);
         match best {
-            // A step too far: half of it is tried.
+            // The step was too long; half of it is tried.
             Some((before, there)) if value < before => {
                 let back = difference(there, pose) * 0.5;
                 if back.norm() < SMALL {

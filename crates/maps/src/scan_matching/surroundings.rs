@@ -15,8 +15,8 @@ const ABOUT: usize = 20;
 
 impl ScanMatching {
     /// Returns the view from a keyframe of a `ring` of beams aligned with the map's axes, by the
-    /// keyframes before and after. `None` if there is no such keyframe. A beam along which none of
-    /// them saw anything reads the ring's range. O(points of the keyframes).
+    /// keyframes before and after. `None` if there is no such keyframe. A beam along which no
+    /// keyframe saw anything reads the ring's range. O(points of the keyframes).
     #[must_use]
     pub fn surroundings(&self, keyframe: usize, ring: Ring, ahead: Heading) -> Option<Scan> {
         let here = self.graph.poses().get(keyframe)?.position;

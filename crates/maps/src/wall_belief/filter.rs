@@ -10,7 +10,7 @@ use tolman_maze::Knowledge;
 
 use super::{RangeModel, RangeReading, WallBelief};
 
-/// Model of wheels and sensors of a [`PoseFilter`].
+/// Parameters of a [`PoseFilter`]: the error model of wheels and sensors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PoseFilterConfig {
@@ -20,10 +20,10 @@ pub struct PoseFilterConfig {
     pub slip: f64,
     /// Standard deviation of the turn that was not commanded, rad per metre. ≥ 0.
     pub drift: f64,
-    /// Standard deviation added to a particle's position in each step, whatever was commanded, m:
-    /// it keeps particles apart. ≥ 0.
+    /// Standard deviation added to a particle's position in every step, m, to keep particles apart.
+    /// ≥ 0.
     pub spread: f64,
-    /// Errors of the range sensors.
+    /// Error model of the range sensors.
     pub sensor: RangeModel,
 }
 
@@ -50,7 +50,7 @@ impl PoseFilterConfig {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("`{field}` is {value}; give {range}")]
 pub struct FilterError {
-    /// The name of the field.
+    /// Name of the field.
     pub field: &'static str,
     /// Value that was given.
     pub value: f64,
@@ -59,8 +59,8 @@ pub struct FilterError {
 }
 
 /// The mouse's pose as a cloud of particles: Monte Carlo localization (Probabilistic robotics,
-/// table 8.2). The low variance sampler of table 4.4 runs whenever half of the particles no longer
-/// count.
+/// table 8.2). The low variance sampler of table 4.4 runs when the effective number of particles
+/// falls below half.
 ///
 /// A ray is expected to end at any wall that may stand on its way ([`WallBelief::meetings`]); an
 /// unknown one stops it as often as not.
@@ -77,7 +77,7 @@ struct Particle {
 }
 
 impl PoseFilter {
-    /// Returns all particles at `pose`.
+    /// Returns a filter with all particles at `pose`.
     ///
     /// # Errors
     /// If a number of the configuration is out of its range.
@@ -125,7 +125,8 @@ impl PoseFilter {
     /// Puts a particle at each of `poses`, to one of which the mouse was carried. Nothing happens
     /// without poses.
     ///
-    /// The number of particles stays until they agree, which [`gather`](Self::gather) is told.
+    /// The number of particles does not change until the next call of [`gather`](Self::gather),
+    /// which is for when they agree.
     pub fn spread(&mut self, poses: impl IntoIterator<Item = Pose>) {
         let poses: Vec<Pose> = poses.into_iter().collect();
         let weight = 1.0 / poses.len() as f64;
@@ -172,7 +173,7 @@ impl PoseFilter {
         }
         let sum: f64 = self.particles.iter().map(|particle| particle.weight).sum();
         let even = 1.0 / self.particles.len() as f64;
-        // Nothing fits: better no opinion than none that is a number.
+        // If no particle fits, all get the same weight: a sum of 0 would make them NaN.
         let usable = sum.is_normal();
         for particle in &mut self.particles {
             particle.weight = if usable { particle.weight / sum } else { even };
@@ -199,7 +200,7 @@ impl PoseFilter {
                 mark += even;
             }
         }
-        // Rounding may leave the last place empty.
+        // By rounding, the last place may remain empty.
         while let (Some(last), true) = (drawn.last().copied(), drawn.len() < count) {
             drawn.push(last);
         }
@@ -270,7 +271,7 @@ fn likelihood<const N: usize>(
             break;
         }
     }
-    // What is left meets nothing.
+    // The rest of the probability is that of meeting nothing.
     sensor.mixed(reading, hit + left * nothing)
 }
 

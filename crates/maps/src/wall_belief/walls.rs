@@ -10,7 +10,7 @@ use super::RangeModel;
 
 /// Evidence for and against every wall of a maze of at most `N` × `N` cells, drawn to scale.
 ///
-/// Every wall has its log-odds to stand. A reading that meets a wall raises them, and one that
+/// Every wall has log-odds that it stands. A reading that meets a wall raises them, and one that
 /// passes lowers them. The change depends on how far the sensor can be trusted at that range.
 /// Beyond [`WallBelief::CONVINCED`] a wall counts as standing or open. It is unknown before, and
 /// may become unknown again.
@@ -42,10 +42,10 @@ pub struct WallBelief<const N: usize> {
     odds: Vec<f64>,
 }
 
-/// One reading of a range sensor.
+/// A reading of one range sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RangeReading {
-    /// Direction in which the beam looks, rad counter-clockwise from ahead.
+    /// Direction of the beam, rad counter-clockwise from ahead.
     pub bearing: f64,
     /// Distance of the thing that the beam met, m.
     pub range: f64,
@@ -56,20 +56,20 @@ pub struct RangeReading {
 /// A wall at which a ray may end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Meeting {
-    /// Distance, m.
+    /// Distance of the wall from the origin of the ray, m.
     pub range: f64,
-    /// Whether the wall is believed in; else it is unknown.
+    /// Knowledge of the wall: believed to stand, or unknown.
     pub known: Knowledge,
 }
 
-/// Cosine below which a ray leaves the axes too much: its reading is about walls at the side.
+/// Cosine of the angle to the axis below which a reading is ignored: it is about walls at the side.
 const STRAIGHT: f64 = 0.985;
 
 impl<const N: usize> WallBelief<N> {
     /// Log-odds from which a wall is believed to stand; below the negative value it is believed to
     /// be open.
     pub const CONVINCED: f64 = 3.0;
-    /// Maximum of the log-odds, so that a wrong belief can be given up.
+    /// Maximum magnitude of the log-odds, so that a wrong belief can be given up.
     const MOST: f64 = 9.0;
     /// Factor on the log-odds of a wall that is doubted.
     const DOUBT: f64 = 0.8;
@@ -98,14 +98,14 @@ impl<const N: usize> WallBelief<N> {
         self.pitch
     }
 
-    /// Returns the middle of a cell.
+    /// Returns the position of the middle of a cell, m.
     #[must_use]
     pub fn middle(&self, cell: Cell) -> Point {
         let along = |index: u16| (f64::from(index) + 0.5) * self.pitch;
         Point::new(along(cell.x), along(cell.y))
     }
 
-    /// Returns the cell a point lies in, or `None` outside the maze.
+    /// Returns the cell in which a point lies, or `None` outside the maze.
     #[must_use]
     pub fn cell_at(&self, point: Point) -> Option<Cell> {
         let index = |along: f64| {
@@ -118,11 +118,11 @@ impl<const N: usize> WallBelief<N> {
         self.grid.contains(cell).then_some(cell)
     }
 
-    /// Takes in one reading that `sensor` made at `pose`. A beam that is far from parallel to both
-    /// axes is ignored. O(n²) for n cells along the ray.
+    /// Updates the walls by one reading that `sensor` made at `pose`. A beam that is far from
+    /// parallel to both axes is ignored. O(n²) for n cells along the ray.
     ///
-    /// Applies Bayes' rule to each wall on the ray alone. It compares the likelihoods of the
-    /// reading with and without the wall, with the present belief in the others.
+    /// Applies Bayes' rule to each wall on the ray separately. It compares the likelihoods of the
+    /// reading with and without the wall, given the present belief about the other walls.
     pub fn observe(&mut self, pose: Pose, reading: RangeReading, sensor: &RangeModel) {
         let heading = pose.heading.turned(reading.bearing);
         let unit = heading.unit();
@@ -150,15 +150,15 @@ impl<const N: usize> WallBelief<N> {
         }
     }
 
-    /// Takes in a touch at the place where the wall of `cell` to `side` may stand.
+    /// Updates the belief by a touch at the `side` of `cell`, where a wall may stand.
     pub fn bump(&mut self, cell: Cell, side: Direction) {
         if let Some(odds) = self.odds.get_mut(self.grid.wall(cell, side).0 as usize) {
             *odds = (*odds + Self::MOST_AT_ONCE).min(Self::MOST);
         }
     }
 
-    /// Makes every wall that is likelier to stand than not less certain, after an error of unknown
-    /// cause.
+    /// Reduces the certainty of every wall that is more likely to stand than not, after an error of
+    /// unknown cause.
     pub fn doubt_walls(&mut self) {
         for odds in self.odds.iter_mut().filter(|odds| **odds > 0.0) {
             *odds *= Self::DOUBT;
@@ -291,11 +291,11 @@ impl<const N: usize> Walls for WallBelief<N> {
 #[derive(Clone, Copy)]
 struct Axis {
     distance: f64,
-    /// Distance between neighbouring lines.
+    /// Distance along the ray between neighbouring lines, m.
     step: f64,
-    /// The side crossed there.
+    /// Side of the cell that the ray crosses there.
     side: Direction,
-    /// The share of the ray that goes that way.
+    /// Component of the ray's direction along this axis.
     slope: f64,
 }
 
@@ -304,9 +304,9 @@ struct Axis {
 struct Chance {
     /// Number of the wall, or `None` at the border, which is known.
     wall: Option<usize>,
-    /// Probability that it stands.
+    /// Probability that the wall stands.
     stands: f64,
-    /// Density of the reading if it ended there.
+    /// Density of the reading if the beam ended at the wall.
     density: f64,
 }
 

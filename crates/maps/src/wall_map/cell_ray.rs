@@ -5,20 +5,20 @@ use tolman_maze::Direction;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct CellRay {
-    /// Direction in which it looks.
+    /// Direction in which the sensor looks.
     pub direction: Direction,
-    /// Number of absent walls in a row, counted from the cell it looks from.
+    /// Number of consecutive absent walls, counted from the sensor's cell.
     pub open: u16,
-    /// End of the ray after these cells.
+    /// Reason why the ray ends after these cells.
     pub end: RayEnd,
 }
 
-/// End of a ray.
+/// Reason why a ray ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum RayEnd {
-    /// A wall stands.
+    /// A wall stopped the ray.
     Wall,
     /// The sensor reaches no farther.
     OutOfRange,

@@ -1,17 +1,17 @@
 use tolman_maze::Wall;
 
-/// The walls learned last, so that they can be forgotten again: a ring of at most `LOG` walls. When
-/// it is full the oldest entries give way.
+/// Log of the last walls learned, so that they can be forgotten again: a ring buffer of `LOG`
+/// entries. When it is full, new entries replace the oldest.
 #[derive(Clone, Copy, Debug, Eq)]
 pub(super) struct Log<const LOG: usize> {
     entries: [Entry; LOG],
-    /// Index of the next entry.
+    /// Index at which the next entry is written.
     next: usize,
     len: usize,
 }
 
-/// One wall that an observation revealed. Walls of a map of at most 32 × 32 have numbers
-/// below 2112.
+/// Entry of the log: one wall that an observation revealed. Walls of a map of at most 32 × 32 have
+/// numbers below 2112.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Entry {
     wall: u16,
@@ -44,7 +44,7 @@ impl<const LOG: usize> Log<LOG> {
             .is_some_and(|last| usize::from(last.place) < self.len)
     }
 
-    /// Takes out the last wall: it, and whether it was the first of its observation.
+    /// Removes and returns the last wall, with whether it was the first of its observation.
     pub(super) fn pop(&mut self) -> Option<(Wall, bool)> {
         let last = self.last()?;
         self.next = (self.next + LOG - 1) % LOG;

@@ -52,7 +52,7 @@ pub struct WallMap<const N: usize, const LOG: usize = 64> {
     /// Walls between a cell and its northern neighbour.
     north: Plane<N>,
     log: Log<LOG>,
-    /// Visits by y, then x; stay at the greatest number.
+    /// Number of visits to each cell, by y, then x; it stays at its maximum.
     visits: [[u8; N]; N],
 }
 
@@ -70,13 +70,13 @@ struct Plane<const N: usize> {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum ClosedCells {
-    /// Some cell may be walled in: unseen walls stay unknown.
+    /// A cell may have walls on all four sides: unseen walls stay unknown.
     Possible,
     /// No cell is walled in: where three walls are known to stand, the fourth does not.
     Impossible,
 }
 
-/// An observation that cannot be true; the map is as before.
+/// Reason why an observation is refused. The map is then unchanged.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ObserveError {
@@ -88,7 +88,7 @@ pub enum ObserveError {
     Outside {
         /// Cell beside the wall.
         cell: Cell,
-        /// The size of the maze.
+        /// Size of the maze.
         grid: Grid,
     },
     /// The observation contradicts a known wall.
@@ -100,9 +100,9 @@ pub enum ObserveError {
     Contradiction {
         /// Cell whose wall is contradicted.
         cell: Cell,
-        /// The side of it.
+        /// Side of the cell on which the wall is.
         direction: Direction,
-        /// Its known state.
+        /// Knowledge of the wall before the observation.
         known: Knowledge,
     },
 }
@@ -171,12 +171,12 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         })
     }
 
-    /// Takes in all rays seen from `cell` at one moment, each along its whole length. Returns the
+    /// Records all rays seen from `cell` at one moment, each along its whole length. Returns the
     /// number of walls that became known. Of two rays in one direction the first counts. O(cells
     /// along the rays).
     ///
     /// # Errors
-    /// If a ray contradicts what is known, or leaves the maze; then nothing is taken in.
+    /// If a ray contradicts what is known, or leaves the maze; then nothing is recorded.
     pub fn observe(&mut self, cell: Cell, rays: &[CellRay]) -> Result<u16, ObserveError> {
         let grid = self.grid;
         if !grid.contains(cell) {
@@ -242,7 +242,8 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         visits.copied().unwrap_or(0)
     }
 
-    /// Returns the size for its largest maze, bytes, without the log of observations.
+    /// Returns the memory for the largest maze of `N` × `N` cells, bytes, without the log of
+    /// observations.
     #[must_use]
     pub const fn bytes(&self) -> usize {
         size_of::<Self>() - size_of::<Log<LOG>>()
@@ -314,7 +315,7 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         }
     }
 
-    /// Writes down a wall that was unknown.
+    /// Records a wall that was unknown.
     fn learn(&mut self, cell: Cell, direction: Direction, what: Knowledge, learned: &mut u16) {
         if self.knowledge(cell, direction) == Knowledge::Unknown {
             self.set(cell, direction, what);
@@ -359,7 +360,7 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         }
     }
 
-    /// Remembers the `place`-th wall of an observation after all others.
+    /// Adds the `place`-th wall of an observation to the end of the log.
     pub(super) fn restore_log(&mut self, wall: Wall, place: u16) {
         self.log.push(wall, place);
     }

@@ -26,18 +26,19 @@ use super::{ClosedCells, TooLarge, WallMap};
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SavedWallMap {
-    /// The size of the maze.
+    /// Size of the maze.
     pub grid: Grid,
     /// Whether the maze's rules allow cells with four walls.
     pub closed_cells: ClosedCells,
-    /// The walls known not to stand, each inside the border and named once.
+    /// Walls known not to stand, each inside the border and named once.
     pub open: Vec<Wall>,
     /// Walls known to stand, in the same form. Border walls are left out.
     pub standing: Vec<Wall>,
     /// The observations that can be forgotten again, the oldest first, each with the walls that it
     /// revealed. A map with a shorter memory drops the oldest.
     pub remembered: Vec<Vec<Wall>>,
-    /// Visits to each cell, row by row from the south; 255 stands for all greater numbers.
+    /// Number of visits to each cell, row by row from the south; 255 stands for all greater
+    /// numbers.
     pub visits: Vec<Vec<u8>>,
 }
 
@@ -130,15 +131,15 @@ pub enum SavedWallMapError {
         grid.width(), grid.height()
     )]
     NotInside {
-        /// Its number.
+        /// Number of the wall.
         wall: u32,
-        /// The size of the maze.
+        /// Size of the maze.
         grid: Grid,
     },
     /// A wall is named twice, as open, as standing or as remembered.
     #[error("wall {wall} is named twice: name it once")]
     Twice {
-        /// Its number.
+        /// Number of the wall.
         wall: u32,
     },
     /// The log remembers an observation of a wall that is unknown.
@@ -146,7 +147,7 @@ pub enum SavedWallMapError {
         "wall {wall} is remembered, but is neither open nor standing: name it there, or forget it"
     )]
     Unknown {
-        /// Its number.
+        /// Number of the wall.
         wall: u32,
     },
     /// The visits are not one number per cell.
@@ -155,7 +156,7 @@ pub enum SavedWallMapError {
         grid.height(), grid.width()
     )]
     Visits {
-        /// The size of the maze.
+        /// Size of the maze.
         grid: Grid,
     },
 }

@@ -79,7 +79,7 @@ pub(super) fn of(
 /// Contests that were already held.
 pub(super) type Held = BTreeMap<HeldKey, Shared>;
 
-/// Identifies a contest: robot, contestant, world and drawing.
+/// Key of a contest: robot, contestant, world and drawing.
 pub(super) type HeldKey = (ContestRobot, &'static str, usize, u32);
 
 /// A contest that the first caller plays while the others wait.

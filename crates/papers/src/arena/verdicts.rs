@@ -58,7 +58,7 @@ pub struct VerdictPool {
     most_rounds: u32,
     rounds: u32,
     rung: usize,
-    /// Number of worlds drawn at each difficulty.
+    /// Number of worlds drawn at each difficulty so far.
     drawn: [u32; RUNGS.len()],
     abstained: u32,
     maps: Vec<OwnVerdict>,
@@ -114,11 +114,11 @@ pub struct RungJudgement {
     pub worlds: u32,
     /// Number of right maps.
     pub right: usize,
-    /// Number of these that it called wrong.
+    /// Number of right maps that it called wrong.
     pub false_alarms: usize,
     /// Number of wrong maps.
     pub wrong: usize,
-    /// Number of these that it called right.
+    /// Number of wrong maps that it called right.
     pub false_right: usize,
 }
 

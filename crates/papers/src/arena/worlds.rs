@@ -13,13 +13,13 @@ use crate::maze_file;
 /// A kind of world that contests are held in.
 #[derive(Clone, Debug)]
 pub enum ArenaWorld {
-    /// Drawings of a family, small and middle ones in turn.
+    /// Drawings of a family, small and middle-sized ones in turn.
     Family(Family),
-    /// The drawing in a file.
+    /// The single drawing of a file.
     File {
-        /// The maze's name, or the file's.
+        /// Name of the maze, or of the file if the maze has none.
         name: String,
-        /// The drawing.
+        /// Maze that was read.
         maze: Maze,
     },
 }
@@ -29,9 +29,9 @@ pub enum ArenaWorld {
 pub struct DrawnWorld {
     /// Name of the world.
     pub name: String,
-    /// The drawing.
+    /// Maze of the drawing.
     pub maze: Maze,
-    /// The seed of all random numbers.
+    /// Seed of all random numbers of the contest.
     pub seed: u64,
     /// Number of times that a robot is put down in it for each task.
     pub starts: u32,
@@ -103,8 +103,8 @@ impl ArenaWorld {
         }
     }
 
-    /// Returns drawing `number` under a master seed. Of a family, even numbers are small and odd
-    /// ones middle drawings.
+    /// Returns drawing `number` under a master seed. Drawings of a family are small for even
+    /// numbers and middle-sized for odd ones.
     ///
     /// # Errors
     /// If the family cannot draw it.

@@ -17,7 +17,7 @@ use tolman_experiment::{
     Better, BoxError, Fields, Job, Metric, Record, Row, Table, record, require,
 };
 
-/// The name of the table.
+/// Name of the table.
 pub(super) const DETECTOR: &str = "detector";
 
 /// Setting of a row.

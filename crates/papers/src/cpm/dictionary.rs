@@ -7,7 +7,7 @@ use tolman_arena::cpm::learn;
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record, require};
 use tolman_systems::cpm::CommonPatterns;
 
-/// The name of the table.
+/// Name of the table.
 pub(super) const DICTIONARY: &str = "dictionary";
 
 record! {

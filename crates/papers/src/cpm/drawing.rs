@@ -17,10 +17,10 @@ use tolman_draw::{
 /// Width of a plan, user units.
 const WIDTH: f64 = 420.0;
 
-/// The radius of a node, user units.
+/// Radius of a node, user units.
 const RADIUS: f64 = 4.5;
 
-/// The colour of junctions, and the first of fragments.
+/// Colour of junctions; the colours of fragments follow it.
 const JUNCTION: Series = Series(0);
 
 /// Returns the name of a fragment, the same in all pictures.

@@ -14,7 +14,7 @@ use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record, requi
 use tolman_systems::baselines::q_learning::{LearningTask, QLearner, QLearningConfig, Transition};
 use tolman_systems::cpm::CommonPatterns;
 
-/// The name of the table.
+/// Name of the table.
 pub(super) const EPISODES: &str = "episodes";
 
 /// Maximum number of episodes.

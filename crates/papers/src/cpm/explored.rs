@@ -8,7 +8,7 @@ use tolman_arena::course::Course;
 use tolman_arena::cpm::CpmTrial;
 use tolman_experiment::{BoxError, Fields, Options, Record, Table, record, require};
 
-/// The name of the table.
+/// Name of the table.
 pub(super) const EXPLORED: &str = "explored";
 
 /// Number of runs of a row. If a walk is half as long again as the best one, this gives its mean to

@@ -12,7 +12,7 @@ use tolman_maze::Maze;
 use tolman_robot::Landmark;
 use tolman_systems::stream;
 
-/// The name of the table.
+/// Name of the table.
 pub(super) const FRESH: &str = "fresh worlds";
 
 /// Default number of worlds of a row.
@@ -33,7 +33,7 @@ const CORRIDORS: [&str; 11] = [
 /// Families with openings of 2 × 2 cells.
 const OPEN: [&str; 3] = ["rooms", "braided rooms", "pillars"];
 
-/// A row: a kind of world, and how the robots differ from how they are made.
+/// A row: a kind of world, and a deviation of the robot from its calibration.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct FreshRow {
     pub(super) row: String,

@@ -10,7 +10,7 @@ use tolman_experiment::Record as _;
 use tolman_experiment::{BoxError, Fields, Job, Options, Row, Table, record, require, run_seed};
 use tolman_systems::cpm::{Approach, CommonPatterns};
 
-/// The name of the table.
+/// Name of the table.
 pub(super) const LOCALIZATION: &str = "localization";
 
 /// Number of places after which the robot must know where it is.

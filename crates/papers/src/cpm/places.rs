@@ -4,7 +4,7 @@ use tolman_arena::course::Course;
 use tolman_arena::diktiometry::{EpuckSurveyConfig, survey_maze};
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record, require};
 
-/// The name of the table.
+/// Name of the table.
 pub(super) const PLACES: &str = "places";
 
 /// Number of moves of a run: several times as many as a maze has ways.

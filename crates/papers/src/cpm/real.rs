@@ -15,7 +15,7 @@ use tolman_systems::cpm::{
     WalkerConfig,
 };
 
-/// The name of the table.
+/// Name of the table.
 pub(super) const FIGURE_11: &str = "11";
 
 /// "The learning time of 90 min (5400 s) is provided" (section 7).

@@ -75,7 +75,7 @@ const STILL: f64 = 1e-6;
 struct Watch<'a> {
     course: &'a Course,
     nodes: Vec<MapNode>,
-    /// The nodes for the present parts of the map.
+    /// Nodes of the present parts of the map, by part.
     live: BTreeMap<Part, usize>,
     edges: Vec<MapEdge>,
     joints: BTreeMap<(FragmentId, Sign), usize>,

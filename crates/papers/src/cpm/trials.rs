@@ -252,7 +252,7 @@ fn map_right() -> Metric {
     Metric::percent("map_right_percent", TrialRun::map_right)
 }
 
-/// Returns the stricter metric: the shortest way on the true map.
+/// Returns the stricter metric of solved trials: the shortest way on the true map.
 fn as_it_lies() -> Metric {
     Metric::percent("shortest_as_it_lies_percent", TrialRun::shortest_as_it_lies)
 }

@@ -20,7 +20,7 @@ use super::ablations::{Change, papers_rule};
 use super::settings::{BARE, FURNISHED, HEED, WALLED_UP};
 use super::share;
 
-/// The name of the table.
+/// Name of the table.
 pub(super) const FRESH: &str = "fresh worlds";
 
 /// Default number of worlds of a row.

@@ -28,9 +28,9 @@ pub(super) struct Trial {
 /// Relation between a table's rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Rows {
-    /// All are in one world, and are compared with the first.
+    /// All rows are in one world, and are compared with the first.
     OneWorld,
-    /// Each is in a world of its own.
+    /// Each row is in a world of its own.
     OwnWorlds,
 }
 
@@ -75,9 +75,9 @@ impl Setting {
 /// Quantity that a row measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Subject {
-    /// The map.
+    /// Quality of the learned map.
     Map,
-    /// The error of odometry alone on the passive walk.
+    /// Error of the odometry alone on the passive walk.
     Odometry,
 }
 
@@ -91,10 +91,10 @@ fn office(side: u16, seed: u64, furniture: &OfficeConfig) -> Result<Arc<Office>,
 /// Share of the passages that are walled up.
 pub(super) const WALLED_UP: f64 = 0.25;
 
-/// An office in which all places look alike.
+/// Configuration of an office in which all places look alike.
 pub(super) const BARE: OfficeConfig = OfficeConfig::bare();
 
-/// An office with doorways, and with walls of many colours.
+/// Configuration of an office with doorways, and with walls of many colours.
 pub(super) const FURNISHED: OfficeConfig = {
     let mut config = OfficeConfig::bare();
     config.doorway_share = 0.2;

@@ -15,11 +15,12 @@ pub(super) struct Tried<T> {
     pub(super) parameters: Parameters,
     /// Map that was learned.
     pub(super) map: T,
-    /// Its score; 0 for a useless map.
+    /// Score of the map, 0 … 1; 0 for a useless map.
     pub(super) score: f64,
 }
 
-/// A search in progress. Each map has parameters near those of the better of the two before.
+/// A search in progress. The parameters of each map are near those of the better of the two maps
+/// before it.
 #[derive(Debug)]
 pub(super) struct Annealing<T> {
     /// Number of maps over which the window shrinks.

@@ -40,7 +40,7 @@ struct Best {
     setting: Setting,
     parameters: Parameters,
     seed: u64,
-    /// Description of the map.
+    /// Description of the map for its caption.
     said: String,
 }
 

@@ -6,7 +6,7 @@ use tolman_experiment::{BoxError, Fields, Job, Metric, Options, Record, Row, Run
 use tolman_maps::place_map::PlaceMapConfig;
 use tolman_robot::Standing;
 
-/// The name of the table.
+/// Name of the table.
 const DRIVEN: &str = "driven";
 
 /// The rows with λ: the middle of the paper's range, and a value that gives as many nodes as our

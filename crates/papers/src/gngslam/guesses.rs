@@ -7,7 +7,7 @@ use tolman_arena::gngslam::PointScore;
 use tolman_experiment::{BoxError, Fields, Job, Metric, Options, Record, Row, Table, record};
 use tolman_stats::{mean, quantile, standard_deviation};
 
-/// The name of the table.
+/// Name of the table.
 pub(super) const NAME: &str = "guesses";
 
 const BY_CENTRE: &str = "to the centre";

@@ -54,7 +54,7 @@ pub(super) const ENTRY: Entry = Entry {
 /// The prepared experiment.
 #[derive(Debug)]
 struct GngSlam {
-    /// The master seed.
+    /// Master seed of the experiment.
     seed: u64,
     searches: Searches,
     long: online::LongRuns,

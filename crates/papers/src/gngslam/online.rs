@@ -17,7 +17,7 @@ use tolman_systems::gngslam::OnlineSlamConfig;
 
 use super::{ASKED, RANDOM, guesses};
 
-/// The names of the tables.
+/// Names of the tables.
 const ONLINE: &str = "online";
 const OTHERS: &str = "other arenas";
 const BY_SEED: &str = "random arenas";

@@ -6,7 +6,7 @@ use super::search_space::TABLE_3_1;
 use super::searches::{MAPS, Searches};
 use super::sets::SETS;
 
-/// The name of the table.
+/// Name of the table.
 pub(super) const NAME: &str = "3.1";
 
 record! {

@@ -4,14 +4,14 @@ use rand::{Rng, RngExt};
 use tolman_maps::place_map::{FeatureWeights, PlaceMapConfig};
 use tolman_quantizers::GngConfig;
 
-/// A parameter.
+/// A parameter of a place map.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Parameter {
-    /// Its name in the paper.
+    /// Name of the parameter in the paper.
     pub(super) name: &'static str,
-    /// Its search space.
+    /// Minimum and maximum of its search space.
     pub(super) space: (f64, f64),
-    /// The paper's optimal range.
+    /// Minimum and maximum of the range that the paper calls optimal.
     pub(super) optimal: (f64, f64),
 }
 
@@ -26,7 +26,7 @@ const fn parameter(name: &'static str, optimal: (f64, f64), space: (f64, f64)) -
 /// Number of parameters.
 pub(super) const COUNT: usize = 10;
 
-/// Table 3.1, row by row.
+/// Parameters of Table 3.1, row by row.
 pub(super) const TABLE_3_1: [Parameter; COUNT] = [
     parameter("a_max", (95.0, 110.0), (1.0, 1000.0)),
     parameter("λ", (450.0, 700.0), (1.0, 1000.0)),
@@ -69,7 +69,7 @@ impl Parameters {
         drawn
     }
 
-    /// Returns the same values with another one for `parameter`.
+    /// Returns the same values, except that `parameter` has the value `value`.
     pub(super) fn with(mut self, parameter: usize, value: f64) -> Self {
         self.0[parameter] = value;
         self

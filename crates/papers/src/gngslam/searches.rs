@@ -23,7 +23,7 @@ pub(super) const MAPS: u32 = 100;
 /// The searches of all rows.
 #[derive(Debug)]
 pub(super) struct Searches {
-    /// The master seed.
+    /// Master seed of the experiment.
     seed: u64,
     /// Records by source.
     places: [Places; SOURCES.len()],

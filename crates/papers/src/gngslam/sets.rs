@@ -2,7 +2,7 @@
 
 use tolman_maps::place_map::{ColourSpace, FeatureScaling, ImageFeature};
 
-/// The names of the tables.
+/// Name of the table.
 pub(super) const TABLE: &str = "4.1";
 pub(super) const VARIANTS: &str = "variants";
 

@@ -12,9 +12,9 @@ use tolman_arena::micromouse::{CellTask, MAX_STEPS};
 use tolman_experiment::{BoxError, Record, record, require};
 use tolman_systems::baselines::q_learning::{QLearner, QLearningConfig};
 
-/// The table of planners.
+/// Name of the table of planners.
 pub(super) const PLANNERS: &str = "planners";
-/// The table of Q-learning.
+/// Name of the table of Q-learning.
 pub(super) const Q_LEARNING: &str = "q-learning";
 
 /// Maximum number of steps of Q-learning.

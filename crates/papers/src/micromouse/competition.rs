@@ -8,7 +8,7 @@ use tolman_arena::competition;
 use tolman_experiment::{BoxError, Fields, Record, Table, record, require};
 use tolman_systems::micromouse::competition::ExploreError;
 
-/// The name of the table.
+/// Name of the table.
 pub(super) const COMPETITION: &str = "competition";
 
 record! {
@@ -77,7 +77,7 @@ pub(super) fn run(set: &MazeSet, number: u32) -> Result<Fields, BoxError> {
             run_ms: Some(exploration.certificate.time_ms),
             ..run
         },
-        // An example is a start that is open only to the sides.
+        // An example is a maze whose start is open only to the sides.
         Err(ExploreError::NoWay { .. }) => run,
         Err(error) => return Err(error.into()),
     };

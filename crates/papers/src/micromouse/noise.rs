@@ -10,7 +10,7 @@ use tolman_experiment::{BoxError, Fields, Job, Options, Record, Row, Run, Table,
 use tolman_systems::micromouse::noisy::PoseSource;
 use tolman_systems::stream;
 
-/// The name of the table.
+/// Name of the table.
 pub(super) const NOISE: &str = "noise";
 
 /// Noise levels, as multiples of ordinary noise.

@@ -12,7 +12,7 @@ use tolman_systems::micromouse::Searcher;
 /// A table of the paper.
 #[derive(Debug)]
 pub(super) struct PaperTable {
-    /// Its number.
+    /// Number of the table in the paper.
     pub(super) name: &'static str,
     title: &'static str,
     note: &'static str,

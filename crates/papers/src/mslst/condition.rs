@@ -1,4 +1,4 @@
-//! How a robot or its world differs from how it is made.
+//! Deviations of a robot or its world from their usual state.
 
 use tolman_arena::episode::{Lifted, random_start};
 use tolman_arena::pioneer::{ENCODER_SD, body, with_sensor_noise};

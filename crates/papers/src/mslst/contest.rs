@@ -62,7 +62,7 @@ pub(super) struct Contest {
     runs: Option<u32>,
 }
 
-/// An entrant, and its maps so far.
+/// A competitor, and its maps so far.
 #[derive(Debug)]
 pub(super) struct Competitor {
     pub(super) row: String,

@@ -52,7 +52,7 @@ pub(super) struct Family {
 
 #[derive(Clone, Copy, Debug)]
 enum Kind {
-    /// The first kept drawings of the sequence.
+    /// The first kept drawings of the sequence of Large mazes.
     Drawings,
     /// Perfect and braided mazes in turn.
     Random,

@@ -9,7 +9,7 @@ use super::states::Mazes;
 use tolman_arena::pioneer;
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
 
-/// The table's name.
+/// Name of the table.
 pub(super) const NAME: &str = "order of inputs";
 
 const SHUFFLED: &str = "shuffled";

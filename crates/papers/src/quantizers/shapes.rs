@@ -8,7 +8,7 @@ use super::any::{ROWS, quantizer};
 use super::streams::{Point, rings_and_squares};
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
 
-/// The table's name.
+/// Name of the table.
 pub(super) const NAME: &str = "rings and squares";
 
 /// Numbers of inputs after which the error is measured; the last is the length of a run.

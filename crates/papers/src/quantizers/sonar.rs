@@ -11,7 +11,7 @@ use crate::data;
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
 use tolman_formats::SonarTable;
 
-/// The table's name.
+/// Name of the table.
 pub(crate) const NAME: &str = "sonar ring";
 
 /// Path of the log below the folder of external data.
@@ -63,7 +63,7 @@ impl Log {
     }
 
     pub(crate) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
-        // There are four laps: three to learn, one to be asked about.
+        // There are four laps: three to learn from, and one to test on.
         let (learnt, asked) = self.readings.split_at(self.readings.len() * 3 / 4);
         let mut rng = ChaCha8Rng::seed_from_u64(job.seed);
         let mut order: Vec<usize> = (0..learnt.len()).collect();

@@ -9,7 +9,7 @@ use tolman_arena::mslst;
 use tolman_arena::pioneer;
 use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record};
 
-/// The table's name in `summary.json`.
+/// Name of the table in `summary.json`.
 pub(super) const NAME: &str = "1";
 
 /// Number of time steps of phase I: "approximately 4000 time steps".

@@ -11,9 +11,9 @@ pub(super) type Point = [f64; 2];
 /// The order of the regions of [`five_clusters`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Order {
-    /// Each point from a region drawn at random.
+    /// Each point is from a region drawn at random.
     Stationary,
-    /// One region after the other, the sine curve in three parts.
+    /// The regions come in turn, the sine curve in three parts.
     OneAfterAnother,
 }
 
@@ -76,7 +76,7 @@ fn spread(half: f64, rng: &mut ChaCha8Rng) -> f64 {
 }
 
 fn gaussian(centre: Point, sd: f64, rng: &mut ChaCha8Rng) -> Point {
-    // Box and Muller.
+    // Method of Box and Muller.
     let radius = sd * libm::sqrt(-2.0 * libm::log(1.0 - rng.random::<f64>()));
     let angle = TAU * rng.random::<f64>();
     [

@@ -20,7 +20,7 @@ use super::false_closures::{Kind, Spoiler};
 use super::gnc::Gnc;
 use crate::data;
 
-/// The table's name.
+/// Name of the table.
 pub(super) const NAME: &str = "audit";
 
 /// Number of false closures added to external graphs.

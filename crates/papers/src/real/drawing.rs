@@ -9,14 +9,14 @@ use tolman_sim::Bounds;
 
 use super::RobotLog;
 
-/// Contents of a log's picture: occupancy, the way found, and the odometry.
+/// Contents of a log's picture: the occupancy, the estimated trajectory, and the odometry.
 #[derive(Clone, Debug)]
 pub struct MapPicture {
     /// Counts of beams that ended and passed.
     pub occupancy: OccupancyGrid,
     /// Positions of the estimated trajectory, m.
     pub corrected: Vec<Point>,
-    /// The odometry, aligned with the start of the way found.
+    /// Positions by odometry, aligned with the start of the estimated trajectory, m.
     pub raw: Vec<Point>,
     /// Share of the beams that end where the map has floor, 0 … 1.
     pub contradicted: f64,
@@ -26,7 +26,7 @@ pub struct MapPicture {
 const CELL: f64 = 0.05;
 /// Maximum length of a beam that is drawn, m.
 const FARTHEST: f64 = 20.0;
-/// Occupancy above which a cell is a wall; below, it is floor.
+/// Occupancy above which a cell is a wall, 0 … 1; below it, the cell is floor.
 const WALL: f64 = 0.25;
 /// Share of beams ending on floor above which a map is doubtful.
 const DOUBT: f64 = 0.12;
@@ -87,7 +87,7 @@ impl MapPicture {
     }
 
     /// Returns the picture, `width` user units wide: the occupancy, over it the odometry as a
-    /// dashed line, and on top the way found.
+    /// dashed line, and on top the estimated trajectory.
     ///
     /// # Errors
     /// If the occupancy is larger than a picture can be.

@@ -15,15 +15,17 @@ use tolman_maps::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph};
 /// Choice of the poses of a false closure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// Any two poses.
+    /// Joins any two poses.
     Random,
-    /// Two poses within 5 m in the true map.
+    /// Joins two poses within 5 m in the true map.
     Local,
-    /// 10 to 20 consecutive pairs that agree with each other, beginning at any two poses.
+    /// Joins 10 to 20 consecutive pairs that agree with each other, beginning at any two poses.
     RandomGroups,
-    /// 10 to 20 consecutive pairs that agree with each other, beginning at two poses within 5 m.
+    /// Joins 10 to 20 consecutive pairs that agree with each other, beginning at two poses within 5
+    /// m.
     LocalGroups,
-    /// Two poses whose measurement is off by less than 1 m and 20°, but by more than its bound.
+    /// Joins two poses by a measurement that is off by less than 1 m and 20°, but by more than its
+    /// bound.
     Near,
 }
 

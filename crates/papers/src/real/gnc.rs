@@ -16,10 +16,10 @@ use tolman_formats::G2o;
 
 const SCRIPT: &str = include_str!("gnc.py");
 
-/// Maximum duration, s.
+/// Maximum duration of GTSAM's run, s.
 const CAP: f64 = 600.0;
 
-/// Maximum duration as a multiple of the audit's time.
+/// Maximum duration of GTSAM's run, as a multiple of the audit's time.
 const TIMES: f64 = 40.0;
 const LEAST: f64 = 60.0;
 
@@ -70,7 +70,7 @@ impl Gnc {
             &scale.to_string(),
             &cap.to_string(),
         ]);
-        // A file left behind does no harm; the answer matters.
+        // A file that is not removed does no harm; the answer matters.
         let _ = fs::remove_file(&path);
         let Some(text) = out? else {
             return Ok(GncRun {
@@ -102,7 +102,7 @@ impl Gnc {
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn()?;
-        // Its clock begins after the graph is read, which takes seconds.
+        // The time limit begins after the graph is read, which takes seconds.
         let cap = Duration::from_secs_f64(arguments[3].parse::<f64>()? + 30.0);
         let start = Instant::now();
         loop {

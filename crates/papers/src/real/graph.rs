@@ -28,7 +28,7 @@ pub enum GraphFileError {
     File {
         /// Path of the file.
         path: PathBuf,
-        /// The underlying error.
+        /// Reason why the file cannot be read.
         source: SourceError,
     },
     /// The file holds no pose graph.
@@ -36,17 +36,17 @@ pub enum GraphFileError {
     G2o {
         /// Path of the file.
         path: PathBuf,
-        /// The fault.
+        /// Fault of the file, with its line.
         source: G2oError,
     },
-    /// One of its edges is refused.
+    /// An edge of the file cannot be part of a graph.
     #[error("{}: line {line}", path.display())]
     Edge {
         /// Path of the file.
         path: PathBuf,
-        /// Number of the line.
+        /// Number of the edge's line, from 1.
         line: usize,
-        /// The fault.
+        /// Reason why the edge is refused.
         source: PoseGraphError,
     },
 }
@@ -55,7 +55,7 @@ impl GraphFile {
     /// Reads a file.
     ///
     /// # Errors
-    /// [`GraphFileError`] with the file and what is wrong with it.
+    /// [`GraphFileError`] with the file and its fault.
     pub fn read(path: &Path) -> Result<Self, GraphFileError> {
         let bytes = input::bytes(path).map_err(|source| GraphFileError::File {
             path: path.to_owned(),

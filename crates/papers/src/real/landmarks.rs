@@ -26,9 +26,9 @@ const NO_HEADING: f64 = 1e-6;
 /// Poses of a robot and positions of landmarks, in the frame of its first pose.
 #[derive(Clone, Debug)]
 pub(super) struct LandmarkMap {
-    /// The robot's poses, one per second.
+    /// Poses of the robot, one per second.
     pub(super) way: Vec<TimedPose>,
-    /// The landmarks.
+    /// Position of each landmark, m, by the landmark's number.
     pub(super) landmarks: BTreeMap<u32, Point>,
 }
 
@@ -127,7 +127,7 @@ fn see(
     moved: Pose,
     seen: &BarcodeSighting,
 ) -> Result<(), PoseGraphError> {
-    // The error's axes are along the ray and across it.
+    // The axes of the error are along the ray and across it.
     let bearing = moved.heading.turned(seen.bearing);
     let position = moved.position + seen.range * bearing.unit();
     let measured = Pose::new(position, bearing);

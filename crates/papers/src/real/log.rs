@@ -17,19 +17,19 @@ use tolman_systems::places::{OfSites, PlacesConfig, PlacesMapper, SiteMapper};
 /// Distance below which two places are one, m: half a corridor's width.
 const DOUBLED_M: f64 = 1.0;
 
-/// The scans of a log, in the order of the file.
+/// A robot's log: its scans, and the report on reading it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RobotLog {
-    /// The scans.
+    /// Scans of the log, in the order of the file.
     pub scans: Vec<LogScan>,
     /// Report on reading the file.
     pub report: LogReport,
 }
 
-/// System that finds the way of a robot from its log.
+/// System that estimates the trajectory of a robot from its log.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LogSystem {
-    /// The wheels alone.
+    /// The odometry alone.
     Odometry,
     /// Scans matched to earlier ones.
     Matching,
@@ -87,7 +87,7 @@ pub struct MappedLog {
     pub closures: usize,
     /// Indices of the scans that the map keeps.
     pub keyframes: Vec<usize>,
-    /// The closures.
+    /// Loop closures found.
     pub closed: Vec<FoundClosure>,
     /// Map of places; empty for a system without one.
     pub places: MapView,
@@ -170,7 +170,7 @@ impl RobotLog {
         self.scans.iter().map(|scan| scan.odometry).collect()
     }
 
-    /// Returns the odometry, aligned with the start of the way `found`.
+    /// Returns the odometry, aligned with the start of the trajectory `found`.
     #[must_use]
     pub fn odometry_over(&self, found: &[Pose]) -> Vec<Pose> {
         let odometry = self.odometry();

@@ -12,7 +12,7 @@ use super::trajectories::{Wear, worse};
 use super::{FoundClosure, LogSystem, MappedLog, RobotLog};
 use crate::data;
 
-/// The table's name.
+/// Name of the table.
 pub(super) const NAME: &str = "relations";
 
 const LOG: &str = "logs/mrpt-intel/intel_raw_every5th.clf.gz";

@@ -9,7 +9,7 @@ use tolman_geom::Pose;
 use super::trajectories::aligned;
 use super::{LogSystem, RobotLog};
 
-/// The table's name.
+/// Name of the table.
 pub(super) const NAME: &str = "small log";
 
 const PACKED: &[u8] = include_bytes!("../../logs/office.clf.gz");
@@ -24,7 +24,7 @@ const ROWS: [(&str, LogSystem); 7] = [
     ("dense", LogSystem::ScanMatching),
 ];
 
-/// The log; the poses noted in it are the true ones.
+/// The small log, in which the true pose of each scan is noted.
 #[derive(Debug)]
 pub(super) struct Small {
     pub(super) log: RobotLog,

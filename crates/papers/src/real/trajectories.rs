@@ -13,7 +13,7 @@ use super::relations::file;
 use super::{LogSystem, RobotLog};
 use crate::data;
 
-/// The table's name.
+/// Name of the table.
 pub(super) const NAME: &str = "trajectories";
 
 /// Rows with their logs, and whether the odometry is raw.
@@ -36,11 +36,11 @@ pub(super) const ROWS: [(&str, &str, bool); 5] = [
 /// Errors that are added to a log's odometry.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wear {
-    /// Constant turn per metre to one side, drawn for each run, degrees.
+    /// Constant turn per metre, degrees; its side is drawn for each run.
     turn_a_metre_deg: f64,
     /// Random turn per step, degrees (standard deviation).
     turn_a_step_deg: f64,
-    /// Constant share by which all distances are too long or too short, drawn for each run.
+    /// Magnitude of the constant relative error of all distances; its sign is drawn for each run.
     length: f64,
 }
 

@@ -14,7 +14,7 @@ use super::landmarks::information;
 use super::relations::file;
 use crate::data;
 
-/// The table's name.
+/// Name of the table.
 pub(super) const NAME: &str = "tuc";
 
 const DRIVE: &str = "logs/tuc-slam/Corridor_Input.txt.gz";

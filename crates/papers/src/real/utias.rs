@@ -22,7 +22,7 @@ use super::landmarks::{LandmarkMap, steps_of};
 use super::relations::file;
 use crate::data;
 
-/// The table's name.
+/// Name of the table.
 pub(super) const NAME: &str = "utias";
 
 const FOLDER: &str = "logs/utias";

@@ -10,7 +10,7 @@ use super::RobotLog;
 use super::relations::file;
 use crate::data;
 
-/// The table's name.
+/// Name of the table.
 pub(super) const NAME: &str = "wean";
 
 /// Rows with their logs. Each is compared with the first of the other logs that is here.

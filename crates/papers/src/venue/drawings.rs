@@ -87,7 +87,8 @@ pub(crate) enum Condition {
     Traps,
     /// The Oracle is no slower than the paper's MSLST was.
     OracleSteps,
-    /// This and the following: within the 95 % interval of the paper's 25 runs.
+    /// Avoid succeeds as often as in the paper: its rate is within the 95 % interval of the paper's
+    /// 25 runs. So are the three numbers of the conditions that follow.
     AvoidSuccess,
     AvoidSteps,
     WallFollowSuccess,

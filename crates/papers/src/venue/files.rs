@@ -1,4 +1,4 @@
-//! Worlds that the caller names.
+//! Reads worlds from files that the caller names.
 
 use std::path::{Path, PathBuf};
 

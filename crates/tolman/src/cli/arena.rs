@@ -123,7 +123,7 @@ struct Line<'a> {
     abstained: Option<&'a str>,
     right: Option<bool>,
     right_of_visited: Option<bool>,
-    /// The system's verdict on its own map.
+    /// Verdict of the system on its own map.
     says: Option<&'static str>,
     purity: Option<f64>,
     link_recall: Option<f64>,

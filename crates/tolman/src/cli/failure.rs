@@ -14,14 +14,14 @@ use super::interrupt::INTERRUPTED;
 /// Reason why a verb failed.
 #[derive(Debug)]
 pub(super) enum Failure {
-    /// The caller has to give something else.
+    /// The input is invalid: the caller has to give something else.
     BadInput(anyhow::Error),
     /// The input was valid, but the machine failed or the work had no result: a robot did not
     /// arrive, or no way is known.
     Failed(anyhow::Error),
-    /// All was done, but `--check` found a table that disagrees with the paper.
+    /// Everything was done, but `--check` found a table that disagrees with the paper.
     Disagrees(anyhow::Error),
-    /// Ctrl-C came before all was done.
+    /// Ctrl-C came before everything was done.
     Interrupted(anyhow::Error),
 }
 
@@ -35,7 +35,7 @@ impl Failure {
         })
     }
 
-    /// Returns whether the reader of standard output has gone.
+    /// Returns whether the failure is that the reader of standard output has closed it.
     pub(super) fn is_closed_pipe(&self) -> bool {
         let broken = |cause: &(dyn core::error::Error + 'static)| {
             let error = cause.downcast_ref::<io::Error>();

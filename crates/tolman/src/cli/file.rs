@@ -1,4 +1,4 @@
-//! Files that the command line asks for.
+//! Writes files that the command line asks for.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Verbs that have a new name.
+//! Former names of verbs.
 
 use anyhow::anyhow;
 
@@ -8,7 +8,7 @@ use super::Failure;
 #[derive(clap::Args)]
 #[command(disable_help_flag = true)]
 pub(super) struct Arguments {
-    /// Ignored arguments.
+    /// Arguments of the former verb, which are ignored.
     #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
     rest: Vec<String>,
 }

@@ -1,4 +1,4 @@
-//! `tolman keep`: a process between a verb and a foreign program, which kills everything that the
+//! `tolman keep`: a process between a verb and a foreign program. It kills every process that the
 //! program leaves behind.
 
 use std::ffi::OsString;

@@ -12,7 +12,7 @@ pub(super) enum Kind {
     Trace,
     /// A world with free walls.
     World,
-    /// An interrupted run.
+    /// The state of an interrupted run.
     Unfinished,
     /// A robot's log in lines of CARMEN.
     Log,
@@ -77,8 +77,8 @@ impl Kind {
     /// Returns the message for a `text` that could not be read as this kind.
     ///
     /// If the text is of another known kind, the message names that kind and the verb that takes
-    /// it. It also says how to make a file of the expected kind. Otherwise it is `error` with the
-    /// file's `name`.
+    /// it. It also says how to make a file of the expected kind. For a text of no known kind, the
+    /// message is `error` with the file's `name`.
     pub(super) fn explain(self, text: &str, name: &str, error: impl Into<Error>) -> Error {
         match Self::of(text) {
             Some(found) if found != self => {

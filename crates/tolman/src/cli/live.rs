@@ -25,11 +25,11 @@ use crate::cli::bar::bar;
 /// A view of a run.
 #[derive(Debug)]
 pub(super) enum Live {
-    /// Drawn on the whole terminal, at the pace of the viewer.
+    /// The run fills the terminal, at the pace of the viewer.
     Screen(Box<Screen>),
-    /// One line on stderr, at full speed.
+    /// The run is one line on stderr, at full speed.
     Line(ProgressBar),
-    /// Closed by the viewer, or the terminal has gone.
+    /// The viewer has closed the view, or the terminal has gone.
     Closed(io::Result<()>),
 }
 

@@ -121,7 +121,7 @@ enum Verb {
     Cpm(former::Arguments),
 }
 
-/// Means that every verb is given beside its arguments.
+/// Parameters that every verb gets beside its arguments.
 struct App<'a> {
     catalogue: &'a Catalogue,
     build: &'a Build,

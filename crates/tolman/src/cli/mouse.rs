@@ -93,7 +93,7 @@ const UNTIL: [(&str, &str, Until); 3] = [
     ),
 ];
 
-/// A maze, and how the mouse did in it.
+/// A maze, and the results of the mouse in it.
 struct Tried<'a> {
     file: &'a Path,
     maze: &'a Maze,
@@ -102,7 +102,7 @@ struct Tried<'a> {
 }
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    // clap makes sure that one of the two is given.
+    // clap requires one of the two.
     let Some(path) = arguments.maze.as_ref().filter(|_| !arguments.mms) else {
         return mms::carry_out(arguments.until.unwrap_or(Until::Goal), out);
     };

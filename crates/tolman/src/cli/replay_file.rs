@@ -14,9 +14,9 @@ use crate::ReplayFormat;
 /// Rule for the existing files that may be overwritten.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Overwrite {
-    /// Only replays.
+    /// Only replays may be overwritten.
     Replays,
-    /// Any file.
+    /// Any file may be overwritten.
     Anything,
 }
 
@@ -39,7 +39,8 @@ fn formats() -> &'static [ReplayFormat] {
     FORMATS.get().map_or(&[], Vec::as_slice)
 }
 
-/// Endings of names that request a format, with the advice if the program lacks it.
+/// Endings of file names that ask for a format, each with advice for a program that lacks the
+/// format.
 const ELSEWHERE: [(&str, &str); 2] = [
     ("mcap", "build it with --features mcap"),
     (

@@ -61,7 +61,7 @@ pub(super) fn send(
         }
         if let (Some(live), Some(film)) = (&mut live, &film) {
             match keeper.again() {
-                // Repeated actions were shown before.
+                // The repeated actions were shown in the former run.
                 Some(_) => live.skip(outing),
                 None => live.see(outing, film),
             }

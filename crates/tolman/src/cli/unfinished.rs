@@ -51,7 +51,7 @@ impl GoingOn {
     }
 }
 
-/// Words on which a run depends: its verb, then its flags with their values.
+/// Command line on which a run depends: its verb, then its flags with their values.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(super) struct Call(Vec<(String, String)>);
 
@@ -88,7 +88,7 @@ impl Call {
     }
 }
 
-/// The name of the format.
+/// Name of the format.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 enum Format {
     #[serde(rename = "tolman-unfinished")]
@@ -107,7 +107,7 @@ pub(super) struct Unfinished {
     call: Call,
     /// Progress of the run.
     done: Done,
-    /// Checksum of its results until then.
+    /// Checksum of the run's results until then.
     checksum: String,
     /// Map from which the run continued; `None` if it did not continue one.
     map: Option<FormerMap>,
@@ -117,7 +117,7 @@ pub(super) struct Unfinished {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct FormerMap {
-    /// Name in messages.
+    /// Path of the map's file, for messages.
     pub(super) name: PathBuf,
     /// Text of the whole file.
     pub(super) text: String,
@@ -197,21 +197,21 @@ fn read(path: &Path) -> Result<Former, Failure> {
 /// Moments at which a run is saved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Saving {
-    /// Never: its driver cannot be made to do the same again.
+    /// The run is never saved, because its driver cannot be made to repeat it.
     Never,
-    /// Saved when Ctrl-C interrupts it.
+    /// The run is saved when Ctrl-C interrupts it.
     AtItsEnd,
-    /// Also saved about once a second, in case something else ends it.
+    /// The run is also saved about once a second, in case something else ends it.
     WhileItGoes,
 }
 
-/// A run in progress: the rest of the former run that must be repeated, and the times of saving.
+/// Saves a run in progress, and first has it repeat the former run.
 pub(super) struct Keeper {
     path: PathBuf,
     call: Call,
     saving: Saving,
     map: Option<FormerMap>,
-    /// The former run; `None` once it has been repeated, or if there is none.
+    /// Former run; `None` once it has been repeated, or if there is none.
     former: Option<Former>,
     trail: Trail,
     done: Done,
@@ -311,7 +311,7 @@ impl Keeper {
         let is_time = self.saving == Saving::WhileItGoes && Instant::now() >= self.next;
         if is_time && self.former.is_none() {
             let began = Instant::now();
-            // If it cannot be saved now, it is saved, or complained of, at the end.
+            // If it cannot be saved now, it is saved at the end, or the error is reported there.
             let _ = self.save(&state);
             self.next = Instant::now() + PERIOD.max(began.elapsed() * PATIENCE);
         }

@@ -132,7 +132,7 @@ fn read_all(maps: &[MapText]) -> Result<Vec<MapFile>, Error> {
     Ok(files)
 }
 
-/// The course that a robot is sent into, and how it walks there.
+/// Course that a robot is sent into, and the configuration of its walk.
 struct Ground {
     robot: &'static str,
     course: Course,

@@ -66,7 +66,7 @@ struct GoingOn {
     heed: f64,
 }
 
-/// Settings for driving.
+/// Settings for driving by a map.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Driving {
@@ -169,7 +169,7 @@ impl SystemEntry for DiktiometryEntry {
         let mut routines = robot.routines(office.config().corridor_width);
         routines.doorway_width = Some(office.config().doorway_width());
         let steps = setup.steps.unwrap_or(100_000);
-        // The place where it sensed the goal when it learned.
+        // The goal is the place where the robot sensed it while learning.
         let goal = file.goal();
         let name = setup.robot(&[config.robot.name()])?;
         if let Some(start) = setup.start {
@@ -212,12 +212,12 @@ impl SystemEntry for DiktiometryEntry {
     }
 }
 
-/// A survey in progress; each move is an action.
+/// A survey in progress. Each of its moves counts as an action.
 struct Surveying {
     survey: Survey,
     /// Number of moves to make.
     moves: u32,
-    /// Number of time steps after which it ends in any case.
+    /// Number of time steps after which the survey ends in any case.
     most_steps: u32,
     world: String,
     seed: u64,

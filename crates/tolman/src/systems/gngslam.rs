@@ -127,7 +127,7 @@ fn read(map: &MapText) -> Result<MapFile, Error> {
     MapFile::from_json(&map.text).with_context(|| map.name.clone())
 }
 
-/// Returns our values for a robot.
+/// Returns our usual configuration for a robot.
 fn usual(robot: &str) -> OnlineSlamConfig {
     match robot {
         LASER_PIONEER => {
@@ -165,7 +165,7 @@ struct Mission {
     /// True pose of its map's origin in the world.
     world_from_map: Pose,
     config: OnlineSlamConfig,
-    /// Default number of time steps that it has.
+    /// Default maximum number of time steps.
     steps: u32,
 }
 
@@ -242,8 +242,8 @@ impl Ground {
     }
 }
 
-/// Returns the true position of the robot when each place was made: those of before, then the new
-/// ones.
+/// Returns the true positions of the robot when each place was made: `before`, then those of
+/// `made`.
 fn with(before: &[Point], made: &[Founding]) -> Vec<Point> {
     let new = made.iter().skip(before.len()).map(|site| site.position);
     before.iter().copied().chain(new).collect()

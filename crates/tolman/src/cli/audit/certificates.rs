@@ -18,7 +18,7 @@ pub(super) const NAME: &str = "certificates.json";
 const FORMAT: &str = "tolman-audit";
 const VERSION: u32 = 1;
 
-/// The whole file. Undecided closures have no certificate and are left out.
+/// Contents of the file. Undecided closures have no certificate and are left out.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CertificateFile {

@@ -12,7 +12,7 @@ use super::{Audited, told};
 /// Width of the picture, user units.
 const WIDTH: f64 = 900.0;
 
-/// Greatest number of closures of each verdict that the page lists.
+/// Maximum number of closures of each verdict that the page lists.
 const LISTED: usize = 100;
 
 const ODOMETRY: Series = Series(0);

@@ -1,4 +1,4 @@
-//! The words in which an audit is reported.
+//! Texts in which an audit is reported.
 
 use core::fmt::Write as _;
 use std::io::{self, Write};

@@ -8,7 +8,7 @@ use tolman_film::Glimpse;
 use super::{Now, Scene};
 use crate::cli::Failure;
 
-/// Stands in for the screen; there is no value of it.
+/// Stands in for the screen. It has no values.
 #[derive(Debug)]
 pub(in crate::cli) enum Screen {}
 

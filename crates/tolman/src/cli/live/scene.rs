@@ -1,4 +1,4 @@
-//! What a run passes to its viewer.
+//! Data that a run passes to its viewer.
 
 use tolman_arena::course::Course;
 use tolman_arena::episode::{Step, Trial};
@@ -6,7 +6,7 @@ use tolman_control::Outcome;
 use tolman_geom::Pose;
 use tolman_robot::{Robot, Scan};
 
-/// The fixed facts of a run.
+/// Properties of a run that do not change.
 #[cfg_attr(
     not(feature = "live"),
     expect(dead_code, reason = "a line shows less than a picture")
@@ -19,14 +19,14 @@ pub(in crate::cli) struct Scene {
     pub(in crate::cli) seed: u64,
     pub(in crate::cli) start: Pose,
     pub(in crate::cli) step_us: u64,
-    /// The robot's radius, m.
+    /// Radius of the robot, m.
     pub(in crate::cli) radius: f64,
     /// Number of time steps after which the run ends; `None` without a limit.
     pub(in crate::cli) step_limit: Option<u32>,
 }
 
 impl Scene {
-    /// Returns the run of a trial.
+    /// Returns the scene of a trial, which is driven by the brain called `word`.
     pub(in crate::cli) fn of(trial: &Trial<'_>, word: &str) -> Self {
         Self {
             course: trial.course.clone(),

@@ -1,4 +1,4 @@
-//! `tolman map --log`: finds the way of a robot from its log.
+//! `tolman map --log`: estimates the trajectory of a robot from its log.
 
 use alloc::collections::BTreeSet;
 use std::fs;
@@ -51,7 +51,7 @@ pub(super) struct Arguments {
     out: Option<PathBuf>,
 }
 
-/// A system that finds the way of a robot from its log.
+/// A system that estimates the trajectory of a robot from its log.
 #[derive(Clone, Copy, ValueEnum)]
 enum System {
     /// Matches scans to earlier ones, and to places seen before: the dense baseline
@@ -159,7 +159,7 @@ fn explain(path: &Path, error: anyhow::Error) -> anyhow::Error {
     }
 }
 
-/// Returns the way found in the log, and shows a progress bar on the terminal.
+/// Returns the trajectory estimated from the log. Shows a progress bar on the terminal.
 fn found(log: &RobotLog, system: System) -> Result<MappedLog, Failure> {
     let system = match system {
         System::ScanMatching => LogSystem::ScanMatching,
@@ -187,7 +187,7 @@ fn refused(why: &str) -> Failure {
     ))
 }
 
-/// Everything to write.
+/// Results to write.
 struct Mapped<'a> {
     path: &'a Path,
     log: &'a RobotLog,

@@ -1,4 +1,4 @@
-//! `tolman map`: finds the way of a robot from its log, and shows learned maps.
+//! `tolman map`: estimates the trajectory of a robot from its log, and shows learned maps.
 
 mod log;
 

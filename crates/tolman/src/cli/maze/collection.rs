@@ -47,8 +47,8 @@ impl Collection {
     }
 }
 
-/// Returns why a maze is one for robots, or `None` for a mouse's maze. The latter has a start, and
-/// its cells have the width of the rules.
+/// Returns why a maze suits only robots, or `None` if it suits a mouse. A maze for mice has a
+/// start, and cells of the width that the rules give.
 fn for_robots(file: &MazeFile) -> Option<&'static str> {
     if file.corridor_width.is_some() {
         return Some("it says how wide its corridors are");
@@ -66,7 +66,7 @@ pub(in crate::cli) fn each<'a, T: Send>(
     jobs: Option<u16>,
     work: impl Fn(&'a Path, &'a Maze) -> Result<T, Failure> + Sync,
 ) -> Result<Vec<T>, Failure> {
-    // A single maze may be drawn on the terminal, which this thread owns.
+    // A single maze may be drawn on the terminal, so it runs on this thread.
     if let [(file, maze)] = mazes {
         return Ok(vec![work(file, maze)?]);
     }

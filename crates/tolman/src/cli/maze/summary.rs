@@ -7,7 +7,7 @@ use tolman_maze::{Cell, MazeFile};
 
 use crate::cli::words::counted;
 
-/// The figures of a maze. Displayed as one line.
+/// Figures of a maze, displayed as one line.
 #[derive(Serialize)]
 pub(super) struct Summary {
     file: String,
@@ -19,7 +19,7 @@ pub(super) struct Summary {
     goals: Vec<[u16; 2]>,
     dead_ends: usize,
     junctions: usize,
-    /// Number of cells that are open somewhere but have no way to a goal.
+    /// Number of cells that are open to some side but have no way to a goal.
     sealed: usize,
     /// Number of cells from the start to the nearest goal; `None` if there is no start or no way.
     shortest_way: Option<u32>,

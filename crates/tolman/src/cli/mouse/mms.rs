@@ -12,7 +12,7 @@ use crate::cli::{Failure, OrBadInput};
 pub(super) fn carry_out(until: Until, out: &mut dyn Write) -> Result<(), Failure> {
     match play(io::stdin().lock(), out, io::stderr().lock(), until) {
         Ok(_) => Ok(()),
-        // What the simulator writes is our input.
+        // The simulator's output is this program's input.
         Err(error @ (PlayError::Reply { .. } | PlayError::TooLarge(_))) => {
             Err(error).or_bad_input()
         }

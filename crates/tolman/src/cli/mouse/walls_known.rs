@@ -5,7 +5,7 @@ use tolman_geom::Point;
 use tolman_maze::{Cell, Direction, Grid};
 use tolman_replay::{EdgeKind, MapEdge, MapGrowth, MapNode, TimeSeries};
 
-/// The walls that a mouse knows, and the step at which it learned each.
+/// Walls that a mouse knows, with the step at which it learned each.
 #[derive(Debug)]
 pub(super) struct WallsKnown {
     grid: Grid,

@@ -26,7 +26,7 @@ const STEP_US: u64 = 200_000;
 /// A mouse's way, step by step.
 #[derive(Debug)]
 pub(in crate::cli) struct Way {
-    /// The maze's name.
+    /// Name of the maze.
     name: String,
     course: Course,
     /// Distance between the middles of two cells, m.

@@ -15,7 +15,7 @@ use crate::cli::{Failure, OrBadInput};
 /// Maximum number of columns or rows of a classic maze.
 const CLASSIC: u16 = 16;
 
-/// Values of the file; `None` if no file was named.
+/// Driving parameters of the file; `None` if no file was named.
 pub(super) struct Params(Option<SpeedRunConfig>);
 
 impl Params {

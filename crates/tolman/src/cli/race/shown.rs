@@ -1,4 +1,4 @@
-//! A race as it is shown.
+//! A race, prepared for viewing.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! A race in words, letters and JSON.
+//! Describes a race in words, letters and JSON.
 
 use std::io::Write;
 
@@ -71,7 +71,7 @@ fn home(explored: &SpeedRunExploration) -> u32 {
     explored.cells.saturating_sub(before)
 }
 
-/// Returns the run as letters.
+/// Returns the run in letters.
 fn letters(run: &[RunLeg]) -> String {
     let letters = run.iter().map(|leg| leg.step.letters());
     letters

@@ -126,7 +126,7 @@ pub(in crate::cli) fn carry_out(
         done.actions += u32::from(step.ends.is_some());
         let state = || Ok(format!("{} {}", step.action, step.words()));
         let went = keeper.went(done, step.robot.path(), step.robot.bumped(), state);
-        // Repeated steps were shown before.
+        // The repeated steps were shown in the former run.
         if let (Some(live), None) = (&mut live, keeper.again()) {
             live::see(step, |now| live.watch(now));
         }

@@ -1,11 +1,11 @@
-//! How fast a run is shown.
+//! Speed at which a run is shown.
 
 use core::time::Duration;
 
 /// Speeds to choose from, time steps per second.
 const SPEEDS: [u32; 10] = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
 
-/// The speed of a run, and whether it is paused.
+/// Speed of a run, and whether the run is paused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Pace {
     speed: usize,
@@ -21,7 +21,7 @@ pub(super) enum Motion {
 }
 
 impl Default for Pace {
-    /// Returns ten steps per second: real time for a robot with ten steps per second.
+    /// Returns a speed of ten steps per second: real time for a robot with ten steps per second.
     fn default() -> Self {
         Self {
             speed: 3,

@@ -94,7 +94,7 @@ fn line(context: &mut Context<'_>, from: Point, to: Point, color: Color) {
     context.draw(&Line::new(from.x, from.y, to.x, to.y, color));
 }
 
-/// Draws evenly spaced dots along a way.
+/// Draws evenly spaced dots along a path.
 fn dotted(context: &mut Context<'_>, way: &[Point], metres_per_dot: f64, color: Color) {
     let spacing = TRAIL_SPACING * metres_per_dot;
     let mut dots = Vec::new();

@@ -169,12 +169,12 @@ impl Screen {
 impl Drop for Screen {
     fn drop(&mut self) {
         give_back();
-        // Nobody asks the flag any more: from here on the first Ctrl-C ends the program.
+        // The flag is no longer read: from here on the first Ctrl-C ends the program.
         self.interrupted.store(true, Ordering::Relaxed);
     }
 }
 
-/// Restores the terminal. A terminal that has gone needs nothing.
+/// Restores the terminal. Errors of a terminal that has gone are ignored.
 fn give_back() {
     let _ = ratatui::try_restore();
 }

@@ -50,7 +50,7 @@ pub(super) struct View {
     pub(super) pose: Pose,
     /// Whether the last step ended at a wall.
     pub(super) bump: bool,
-    /// The action under way, or just ended.
+    /// Action in progress, or just ended.
     action: String,
     /// Outcome of the last action.
     ended: String,
@@ -59,7 +59,7 @@ pub(super) struct View {
     pub(super) beams: Beams,
     /// Map learned so far, and the robot's believed position.
     pub(super) known: Glimpse,
-    /// The outcome, once the run is over.
+    /// Outcome in words; `None` until the run is over.
     pub(super) told: Option<String>,
 }
 

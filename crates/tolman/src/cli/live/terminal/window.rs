@@ -6,13 +6,12 @@ use tolman_sim::Bounds;
 /// Minimum number of dots across a cell: with fewer a corridor cannot be made out.
 const LEAST_DOTS: f64 = 4.0;
 
-/// Width of a window, in hops.
+/// Number of hops in the width of a window. A hop is the distance by which the window moves.
 const HOPS: f64 = 4.0;
 
 /// A part of the world on a grid of dots.
 ///
-/// Lines of the world that are whole cells apart are whole dots apart on the grid, so that all
-/// walls look alike.
+/// A cell is a whole number of dots wide, so that all walls look alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Window {
     /// Positions of the leftmost and the rightmost dot, m.

@@ -19,7 +19,7 @@ pub(super) enum Wish {
 }
 
 impl Wish {
-    /// The keys, as the panel names them.
+    /// Keys with their meanings, as the panel shows them.
     pub(super) const KEYS: [&str; 3] = ["space pause   → step", "+/- speed   b beams", "q quit"];
 
     /// Returns the wish behind a key press, or `None` if the key has no meaning.
