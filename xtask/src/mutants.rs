@@ -32,7 +32,7 @@ pub(crate) struct Shard {
 }
 
 impl Shard {
-    /// Reads K/N.
+    /// Parses a shard written as K/N.
     pub(crate) fn parse(text: &str) -> Result<Self> {
         let parts = text.split_once('/');
         let read = parts.and_then(|(first, of)| {

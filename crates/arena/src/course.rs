@@ -96,7 +96,7 @@ pub enum CourseError {
         reach: f64,
     },
     /// The world cannot be built.
-    #[error("no world can be built from the maze")]
+    #[error("no world can be built from the maze; correct the maze or its corridor width")]
     World(#[from] WorldError),
     /// The world cannot be written as a file.
     #[error("the world cannot be written as a file")]

@@ -15,13 +15,13 @@ use crate::run::{InRun, Limited, LimitedError};
 #[non_exhaustive]
 pub enum EpisodeError {
     /// The robot cannot be built.
-    #[error("the robot cannot be built")]
+    #[error("the robot cannot be built; correct its configuration")]
     Robot(#[from] RobotConfigError),
     /// The robot cannot start where it was put.
-    #[error("the robot cannot start there")]
+    #[error("the robot cannot start there; choose another start")]
     Start(#[from] PlaceError),
     /// The layers do not fit the robot's ring.
-    #[error("the layers do not fit the robot's ring")]
+    #[error("the layers do not fit the robot's ring of beams; change one of the two")]
     Layers(#[from] RingError),
     /// The mind cannot work on this course.
     #[error(transparent)]
@@ -37,7 +37,7 @@ pub enum EpisodeError {
         most: usize,
     },
     /// A step could not be made.
-    #[error("step {step} failed")]
+    #[error("step {step} failed; correct the layer that chose its command")]
     Step {
         /// Number of the step, from 0.
         step: u32,

@@ -30,7 +30,7 @@ pub enum LearnError {
     #[error("the robot cannot wander")]
     Wander(#[from] EpisodeError),
     /// No states can be learned from the robot's scans.
-    #[error("no states can be learned from the scans")]
+    #[error("no states can be learned from the scans; check the laser or the GNG")]
     States(#[from] StatesError),
 }
 

@@ -269,7 +269,7 @@ impl Chart {
         self.layers.push(Layer::Line(line));
     }
 
-    /// Adds points.
+    /// Adds points, which no line joins.
     pub fn points(&mut self, points: Points) {
         self.layers.push(Layer::Points(points));
     }

@@ -56,7 +56,7 @@ pub struct Figure {
     pub caption: String,
     /// Table that it belongs to; `None` puts it after all tables.
     pub table: Option<String>,
-    /// The picture.
+    /// Picture of the figure.
     pub drawing: Drawing,
 }
 

@@ -41,7 +41,7 @@ pub struct GraphPicture {
     pub signs: Vec<Point>,
 }
 
-/// One node.
+/// A node of a drawn graph.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GraphNode {
     /// Position on the picture.
@@ -68,7 +68,7 @@ pub enum NodeMark {
     Square,
 }
 
-/// One edge.
+/// An edge of a drawn graph.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GraphEdge {
     /// Index of the node at which the edge begins.
@@ -86,7 +86,7 @@ pub struct GraphEdge {
 /// Style of an edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum EdgeLine {
-    /// A line.
+    /// A continuous line, without arrow heads.
     #[default]
     Plain,
     /// A dashed line, for doubtful things.

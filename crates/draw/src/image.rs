@@ -44,7 +44,7 @@ pub enum ImageError {
         found: usize,
     },
     /// The PNG encoder refuses the picture.
-    #[error("{width} × {height} pixels cannot be written as PNG")]
+    #[error("{width} × {height} pixels cannot be written as PNG; give fewer")]
     Png {
         /// Number of pixels in a row.
         width: u32,

@@ -167,11 +167,11 @@ impl Column {
 pub enum Kind {
     /// Yes or no.
     Flag,
-    /// A count.
+    /// A count, from 0.
     Count,
     /// A measured number.
     Number,
-    /// A word.
+    /// A text, such as the reason for an end.
     Text,
     /// Numbers at equally spaced steps.
     Curve,

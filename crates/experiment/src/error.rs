@@ -20,7 +20,7 @@ pub enum Error {
         choices: String,
     },
     /// Input of the experiment cannot be read.
-    #[error("experiment {name} cannot be prepared")]
+    #[error("experiment {name} cannot be prepared; correct its options or its input")]
     Open {
         /// Name of the experiment.
         name: String,
@@ -127,7 +127,9 @@ pub enum Error {
         source: BoxError,
     },
     /// A run could not be played.
-    #[error("table {table}, row {row}, run {run} (seed {seed}) could not be played")]
+    #[error(
+        "table {table}, row {row}, run {run} (seed {seed}) could not be played; name the other rows with --row"
+    )]
     Run {
         /// Name of the table.
         table: String,

@@ -11,7 +11,7 @@ use super::{
 pub enum Ink {
     /// Text without colours.
     Plain,
-    /// ANSI colours.
+    /// Text with ANSI colours.
     Coloured,
 }
 

@@ -16,9 +16,9 @@ use crate::{Heading, Point, Twist, Vector};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Pose {
-    /// Position, m.
+    /// Position in the outer frame, m.
     pub position: Point,
-    /// Heading, rad counter-clockwise from east.
+    /// Heading in the outer frame, rad counter-clockwise from east.
     pub heading: Heading,
 }
 

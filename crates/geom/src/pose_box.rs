@@ -32,9 +32,9 @@ use crate::{Interval, IntervalError, PointBox, Pose};
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PoseBox {
-    /// Position, m.
+    /// Bounds of the position, m.
     pub position: PointBox,
-    /// Heading, rad, not wrapped.
+    /// Bounds of the heading, rad, not wrapped.
     pub heading: Interval,
 }
 

@@ -1,6 +1,6 @@
-//! Drives the laser Pioneer three times round the corridors of `mazes/worlds/rooms.json`, and
-//! writes the pose graph of it, with false closures, and its truth:
-//! `cargo run -p tolman-papers --example rooms_graph -- mazes/graphs`.
+//! Drives the laser Pioneer three times round the corridors of `mazes/worlds/rooms.json`. Writes
+//! the pose graph of the drive, with false closures, and the true poses: `cargo run -p
+//! tolman-papers --example rooms_graph -- mazes/graphs`.
 
 use core::error::Error;
 use std::path::Path;

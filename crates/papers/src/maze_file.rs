@@ -22,7 +22,7 @@ pub(super) fn in_file(path: &Path, source: impl Into<BoxError>) -> BoxError {
 }
 
 #[derive(Debug, thiserror::Error)]
-#[error("the maze file {path:?} cannot be used")]
+#[error("the maze file {path:?} cannot be used; correct it or name another")]
 struct InFile {
     path: PathBuf,
     source: BoxError,

@@ -65,7 +65,7 @@ impl Decisions {
     }
 
     /// Returns the average cost to reach a goal by this action of a state and then by the cheapest
-    /// actions, or infinity if no end leads to a goal. `costs` are the costs of the states.
+    /// actions. It is infinite if no end leads to a goal. `costs` are the costs of the states.
     #[must_use]
     pub fn cost(&self, costs: &[f32], state: usize, action: usize) -> f32 {
         let index = state * self.actions + action;

@@ -11,19 +11,19 @@ use crate::UnitId;
 pub enum Event {
     /// A unit was inserted, without edges so far.
     Inserted {
-        /// Inserted unit.
+        /// Id of the inserted unit.
         id: UnitId,
         /// Units between which it was inserted; `None` for a unit made of an input.
         between: Option<(UnitId, UnitId)>,
     },
     /// A unit was removed. Its edges were removed just before.
     Removed {
-        /// Removed unit.
+        /// Id of the removed unit.
         id: UnitId,
     },
     /// A unit was merged into another. Its edges were removed or taken over just before.
     Merged {
-        /// The removed unit.
+        /// Id of the removed unit.
         gone: UnitId,
         /// Unit that now stands for both.
         into: UnitId,

@@ -36,7 +36,7 @@ impl<S: Scalar> Nearest<S> {
 /// The two units nearest to an input. Of equally near units the one with the smaller id is nearer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearestTwo<S> {
-    /// Nearest unit.
+    /// Unit nearest to the input.
     pub first: Nearest<S>,
     /// Second nearest unit, if there are two.
     pub second: Option<Nearest<S>>,

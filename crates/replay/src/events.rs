@@ -19,7 +19,7 @@ pub struct ReplayEvent<'a> {
     pub step: u32,
     /// Subject, as a path: `/scene`, `/ROBOT/map/NAME`.
     pub topic: String,
-    /// What happens.
+    /// Content of the event.
     pub content: EventContent<'a>,
 }
 
@@ -52,16 +52,16 @@ pub enum EventContent<'a> {
     },
     /// The range sensor was read.
     Scan {
-        /// Frame of the robot.
+        /// Frame of the robot, in which the beams are given.
         frame: String,
         /// Geometry of the beams.
         ring: &'a Ring,
-        /// Ranges, m.
+        /// Range of each beam, m.
         ranges: &'a [f64],
     },
     /// A number of a time series changes.
     Number {
-        /// New value.
+        /// New value of the series.
         value: f64,
         /// Unit; `%` means that the value is a share.
         unit: &'a str,
@@ -85,7 +85,7 @@ pub enum FloorDrawing {
     Segments(Vec<[Point; 2]>, Rgba),
     /// A closed line.
     Outline(Vec<Point>, Rgba),
-    /// Discs.
+    /// Discs, each of its own colour.
     Discs(Vec<FloorDisc>),
 }
 
@@ -94,9 +94,9 @@ pub enum FloorDrawing {
 pub struct FloorDisc {
     /// Middle of the disc, m.
     pub centre: Point,
-    /// Radius, m.
+    /// Radius of the disc, m.
     pub radius: f64,
-    /// Colour.
+    /// Colour of the disc.
     pub colour: Rgba,
 }
 

@@ -428,6 +428,6 @@ pub enum Mark {
     Kidnapping,
     /// The first step at which two runs differ.
     Difference,
-    /// Anything else.
+    /// An event of any other kind.
     Event,
 }

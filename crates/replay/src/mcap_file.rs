@@ -33,7 +33,7 @@ pub enum McapExportError {
     #[error(transparent)]
     Replay(#[from] EncodeError),
     /// The MCAP writer refuses the replay.
-    #[error("the replay does not fit into MCAP")]
+    #[error("the replay does not fit into MCAP; write it as HTML")]
     Write(#[from] McapError),
 }
 

@@ -130,7 +130,7 @@ pub enum CompareError {
         second_us: u64,
     },
     /// The robot of a trace cannot be built again.
-    #[error("{trace}: robot {robot} cannot be built")]
+    #[error("{trace}: robot {robot} cannot be built; record the trace again")]
     Robot {
         /// Name of the trace.
         trace: String,

@@ -27,10 +27,10 @@ pub enum RrdExportError {
     #[error(transparent)]
     Replay(#[from] EncodeError),
     /// The rows of an entity do not fit together.
-    #[error("the replay does not fit into a chunk of Rerun")]
+    #[error("the replay does not fit into a chunk of Rerun; write it as HTML")]
     Chunk(#[from] Box<ChunkError>),
     /// The `.rrd` writer refuses the replay.
-    #[error("the replay does not fit into .rrd")]
+    #[error("the replay does not fit into .rrd; write it as HTML")]
     Write(#[from] Box<re_log_encoding::EncodeError>),
 }
 

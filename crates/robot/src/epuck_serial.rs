@@ -3,9 +3,9 @@
 //!
 //! Each command is a letter with its arguments, and each answer begins with the same letter in
 //! lower case. `D,l,r` sets the speeds of the wheels (answer `d`). `E` asks for the set speeds
-//! (`e,l,r`), `N` for the proximity sensors (`n,` and eight numbers), and `Q` for the encoders
-//! (`q,l,r`). Speeds and encoders count thousandths of a turn. Any port that reads and writes bytes
-//! will do; give it a time-out.
+//! (answer `e,l,r`), and `N` for the proximity sensors (`n,` and eight numbers). `Q` asks for the
+//! encoders (`q,l,r`). Speeds and encoders count thousandths of a turn. Any port that reads and
+//! writes bytes will do; give it a time-out.
 //!
 //! `Q` tells what the wheels do; `E` tells the speeds that the firmware uses. The robot answers `d`
 //! even to a command that lost a byte on its way. A remote control may set other speeds without the
@@ -256,7 +256,7 @@ pub enum SerialError {
     )]
     Closed,
     /// The port reported an error of another kind.
-    #[error("the port failed: {0:?}")]
+    #[error("the port failed ({0:?}): check the connection to the e-puck and open the port again")]
     Port(ErrorKind),
     /// The answer is not a line of text.
     #[error("the e-puck sends bytes that are not text: check the port's speed and its firmware")]
@@ -266,9 +266,9 @@ pub enum SerialError {
         "the e-puck answers {answer:?} where `{expected}` should stand: open its port again; if that does not help, switch it off and on"
     )]
     Unexpected {
-        /// Expected beginning.
+        /// Text with which the answer should begin.
         expected: &'static str,
-        /// Answer received.
+        /// Answer that was received.
         answer: String,
     },
     /// The answer has too few or too many numbers.
@@ -279,7 +279,7 @@ pub enum SerialError {
     Numbers {
         /// Number of numbers expected.
         expected: usize,
-        /// Answer received.
+        /// Answer that was received.
         answer: String,
     },
     /// The wheels' speeds differ from those commanded.

@@ -101,9 +101,9 @@ impl Scan {
         }
     }
 
-    /// Returns the range of the beam nearest to a bearing, rad counter-clockwise from ahead, or of
-    /// the `beside`-th beam counter-clockwise from it, m. The ring counts as full; `None` if it has
-    /// no beams. O(1).
+    /// Returns the range, m, of the `beside`-th beam counter-clockwise from the one nearest to
+    /// `bearing`. The bearing is in rad, counter-clockwise from ahead. The ring counts as full;
+    /// `None` if it has no beams. O(1).
     ///
     /// ```
     /// use tolman_robot::{Ring, Scan};

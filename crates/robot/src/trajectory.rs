@@ -22,7 +22,7 @@ pub struct Trajectory {
 /// Pose of a robot at a time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TimedPose {
-    /// Time, s.
+    /// Time of the pose, s.
     pub time: f64,
     /// Pose at that time.
     pub pose: Pose,

@@ -5,7 +5,7 @@
 #[non_exhaustive]
 pub enum SampleError {
     /// The sample is too small.
-    #[error("{count} values are too few; {needed} or more are needed")]
+    #[error("the sample has {count} values; give {needed} or more")]
     TooSmall {
         /// Number of values given.
         count: usize,
@@ -31,7 +31,7 @@ pub enum SampleError {
         second: usize,
     },
     /// All values are the same where some difference is needed.
-    #[error("all differences are zero, so there is nothing to rank")]
+    #[error("all differences are zero, so there is nothing to rank; give samples that differ")]
     NoDifference,
     /// The exact distribution is not known for samples with ties or zeros.
     #[error(

@@ -50,7 +50,7 @@ pub struct Contest<'a> {
 #[non_exhaustive]
 pub enum ContestError {
     /// Robot, system and drawing do not fit together.
-    #[error("{contestant} cannot be sent into {world}")]
+    #[error("{contestant} cannot be sent into {world}; choose another system or world")]
     Enter {
         /// Name of the contestant.
         contestant: &'static str,
@@ -61,7 +61,7 @@ pub enum ContestError {
         source: BoxError,
     },
     /// There is no room for the robot where it is put down.
-    #[error("{contestant} cannot be put down in {world}")]
+    #[error("{contestant} cannot be put down in {world}; choose another place")]
     PutDown {
         /// Name of the contestant.
         contestant: &'static str,

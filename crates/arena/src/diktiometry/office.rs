@@ -104,7 +104,7 @@ pub enum OfficeError {
         colours: u32,
     },
     /// The world cannot be built.
-    #[error("no world can be built from the maze")]
+    #[error("no world can be built from the maze; correct the maze or the office's settings")]
     World(#[from] WorldError),
 }
 

@@ -166,13 +166,13 @@ pub enum RunError {
     #[error(transparent)]
     Config(#[from] RoutineConfigError),
     /// The robot cannot be built.
-    #[error("the robot cannot be built")]
+    #[error("the robot cannot be built; correct its configuration")]
     Robot(#[from] CameraPioneerError),
     /// The robot cannot stand where it is put.
-    #[error("the robot cannot stand there")]
+    #[error("the robot cannot stand there; choose another start")]
     Place(#[from] PlaceError),
     /// The world has no such door.
-    #[error("the door cannot be moved")]
+    #[error("the door cannot be moved; name a door of the world")]
     Door(#[from] DoorError),
     /// Robot or observer cannot begin.
     #[error(transparent)]

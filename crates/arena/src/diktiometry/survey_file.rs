@@ -46,13 +46,13 @@ pub enum SurveyFileError {
         found: f64,
     },
     /// The maze is invalid.
-    #[error("its maze is invalid")]
+    #[error("its maze is invalid; learn the map again")]
     Maze(#[from] MazeError),
     /// The maze cannot become a world.
-    #[error("no world can be built from its maze")]
+    #[error("no world can be built from its maze; learn the map again")]
     Office(#[from] OfficeError),
     /// The map is invalid, or its journal was not kept.
-    #[error("its map is invalid")]
+    #[error("its map is invalid; learn the map again")]
     Map(#[from] MapFileError),
 }
 

@@ -65,7 +65,7 @@ pub enum OnlineRunError {
     #[error(transparent)]
     Robot(#[from] PutError),
     /// The system cannot go on.
-    #[error("the system cannot go on")]
+    #[error("the system cannot continue; correct its configuration")]
     System(#[from] OnlineSlamError<StepError>),
 }
 

@@ -69,7 +69,7 @@ pub enum PitchError {
         calibration: f64,
     },
     /// The world cannot be built.
-    #[error("no world can be built from the arena")]
+    #[error("no world can be built from the arena; correct its walls")]
     World(#[from] WorldError),
 }
 

@@ -13,7 +13,7 @@ use crate::Simulated;
 #[non_exhaustive]
 pub enum PutError {
     /// The robot cannot be built.
-    #[error("the robot cannot be built")]
+    #[error("the robot cannot be built; correct its configuration")]
     Robot(#[from] Pioneer2dxError),
     /// The arena has no room for the robot.
     #[error(transparent)]

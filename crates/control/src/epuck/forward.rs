@@ -73,7 +73,7 @@ impl ForwardConfig {
 /// A wall beside the robot.
 #[derive(Clone, Copy, Debug)]
 struct Beside {
-    /// Distance, m.
+    /// Distance of the wall from the robot's middle, m.
     distance: f64,
     /// Its direction in the robot's frame, rad, or `None` if only one sensor sees it.
     angle: Option<f64>,

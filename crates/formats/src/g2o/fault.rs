@@ -33,13 +33,13 @@ pub enum G2oFaultKind {
     /// A number is not a finite number.
     #[error("`{text}` is not a finite number; measure the line again or remove it")]
     Number {
-        /// Text found.
+        /// Text found in place of the number.
         text: String,
     },
     /// An id is not a whole number.
     #[error("`{text}` is not the id of a pose; ids are whole numbers from 0")]
     Id {
-        /// Text found.
+        /// Text found in place of the id.
         text: String,
     },
     /// A pose is given twice.

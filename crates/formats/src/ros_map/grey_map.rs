@@ -37,7 +37,7 @@ pub enum GreyMapError {
         what: &'static str,
         /// Value that was given.
         value: u64,
-        /// Maximum value.
+        /// Maximum value of the number.
         most: u64,
     },
     /// A value is brighter than white.

@@ -45,9 +45,9 @@ pub enum RosMapHeaderError {
         line: usize,
         /// Name of the key.
         key: &'static str,
-        /// Value found.
+        /// Value that the file gives.
         value: String,
-        /// Value expected.
+        /// Values that the key may have, in words.
         expected: &'static str,
     },
     /// The map is turned.

@@ -8,8 +8,8 @@ use super::rounding::{
 use super::{Interval, IntervalError};
 
 impl Interval {
-    /// Returns the interval of all quotients of a number in `self` and one other than 0 in
-    /// `divisor`, or `None` if the divisor is 0 alone. If 0 is inside or at the end of the divisor,
+    /// Returns the interval of all quotients of a number in `self` and a number other than 0 in
+    /// `divisor`. `None` if the divisor is 0 alone. If 0 is inside or at the end of the divisor,
     /// the quotient may be unbounded.
     #[must_use]
     pub fn checked_div(self, divisor: Self) -> Option<Self> {

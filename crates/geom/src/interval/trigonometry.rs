@@ -36,7 +36,7 @@ impl Interval {
         self.sines().1
     }
 
-    /// Returns 2π.
+    /// Returns an interval that contains 2π.
     pub(crate) fn full_circle() -> Self {
         multiple_of_half_pi(4)
     }

@@ -89,7 +89,7 @@ pub enum PlaceGraphError {
         step: usize,
     },
     /// The pose graph refuses an edge between two places.
-    #[error("two places cannot be joined")]
+    #[error("two places cannot be joined; correct the configuration of the graph")]
     Edge(#[from] PoseGraphError),
 }
 

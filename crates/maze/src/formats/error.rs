@@ -106,7 +106,7 @@ pub enum MazeFault {
     Count {
         /// Number found; of lines and items beyond the last one, only the first is counted.
         found: usize,
-        /// Number expected.
+        /// Number of lines or items expected.
         expected: usize,
         /// Kind of the counted things.
         what: &'static str,

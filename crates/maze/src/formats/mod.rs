@@ -95,7 +95,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// All formats.
+    /// All formats that can be read and written.
     pub const ALL: [Self; 4] = [Self::Numbers, Self::Mazefiles, Self::Num, Self::Tolman];
 
     /// Returns the name as typed on a command line.

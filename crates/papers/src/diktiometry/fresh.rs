@@ -52,7 +52,7 @@ pub(super) struct FreshRow {
     draw: Draw,
     furniture: OfficeConfig,
     moves: u32,
-    /// Exploration probability.
+    /// Exploration probability, 0 … 1.
     heed: f64,
     worlds: u32,
     /// Changes the errors of the robot.

@@ -34,7 +34,7 @@ pub(super) enum Rows {
     OwnWorlds,
 }
 
-/// A row.
+/// A row: an office, a walk through it, and the quantity to measure.
 #[derive(Debug)]
 pub(super) struct Setting {
     pub(super) row: &'static str,

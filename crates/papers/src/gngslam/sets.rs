@@ -81,7 +81,7 @@ const PAPER: Source = Source {
     scaling: FeatureScaling::Group,
 };
 
-/// All sources.
+/// All sources of records.
 pub(super) const SOURCES: [Source; 4] = [
     PAPER,
     Source {

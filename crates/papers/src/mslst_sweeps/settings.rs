@@ -14,7 +14,7 @@ use tolman_experiment::BoxError;
 use tolman_systems::mslst::MslstConfig;
 use tolman_systems::mslst::ROBOT_UNIT;
 
-/// A table.
+/// A table: one parameter, varied over several rows.
 #[derive(Debug)]
 pub(super) struct Sweep {
     pub(super) name: &'static str,
@@ -25,7 +25,7 @@ pub(super) struct Sweep {
     pub(super) note: &'static str,
 }
 
-/// A row.
+/// A row of a sweep: one value of the varied parameter.
 #[derive(Debug)]
 pub(super) struct Setting {
     pub(super) row: String,

@@ -46,7 +46,7 @@ pub enum LogSystem {
 }
 
 impl LogSystem {
-    /// All systems.
+    /// All systems that map a log.
     pub const ALL: [Self; 7] = [
         Self::Odometry,
         Self::Matching,

@@ -49,14 +49,14 @@ pub enum SpeedRunCertificateError {
         run_move: RunMove,
     },
     /// The run does not end in the middle of a goal cell.
-    #[error("the run does not end in the middle of a goal")]
+    #[error("the run does not end in the middle of a goal: search the run again")]
     NotAtGoal,
     /// The run does not take the stated time.
     #[error("the run takes {actual_ms} ms, not the {time_ms} ms that the certificate says")]
     WrongTime {
-        /// Duration by the certificate.
+        /// Duration that the certificate states, ms.
         time_ms: u32,
-        /// Actual duration.
+        /// Actual duration of the run, ms.
         actual_ms: u32,
     },
     /// If unknown walls were open, a faster run would be possible.
@@ -64,9 +64,9 @@ pub enum SpeedRunCertificateError {
         "the known walls allow a run of {possible_ms} ms, faster than the {time_ms} ms: look at more walls"
     )]
     NotTheBest {
-        /// Duration by the certificate.
+        /// Duration that the certificate states, ms.
         time_ms: u32,
-        /// Possible duration.
+        /// Duration of the possible run, ms.
         possible_ms: u32,
     },
 }

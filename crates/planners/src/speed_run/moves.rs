@@ -18,7 +18,7 @@ pub enum RunMove {
     },
     /// A slalom turn.
     Turn {
-        /// The turn.
+        /// Kind of the slalom turn.
         slalom: Slalom,
         /// Side to which the mouse turns.
         side: Side,
@@ -95,9 +95,9 @@ impl RunStep {
     /// Returns the letter of the move as kerikun11/micromouse-maze-library has it
     /// (`RobotBase::FastAction`), and how often it is written: a straight of three cells is `SSS`.
     ///
-    /// `S` is a cell straight on and `w` half a cell's diagonal. `z` and `c` are F45 to the left
-    /// and right, `q` and `Q` F90, `a` and `d` F135, `u` and `U` F180, `p` and `P` FV90. F45 and
-    /// F135 out of a diagonal are `Z`, `C`, `A` and `D`.
+    /// `S` is a cell straight on and `w` half a cell's diagonal. Turns to the left and right are
+    /// `z` and `c` for F45, `q` and `Q` for F90, `a` and `d` for F135. They are `u` and `U` for
+    /// F180, `p` and `P` for FV90. F45 and F135 out of a diagonal are `Z`, `C`, `A` and `D`.
     #[must_use]
     pub const fn letters(self) -> (char, u16) {
         let (slalom, side) = match self.run_move {
@@ -124,9 +124,9 @@ impl RunStep {
 /// Side of a turn: left or right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// Counter-clockwise.
+    /// The mouse turns counter-clockwise.
     Left,
-    /// Clockwise.
+    /// The mouse turns clockwise.
     Right,
 }
 

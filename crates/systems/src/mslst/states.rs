@@ -9,10 +9,10 @@ pub enum StatesError {
     #[error("no time step had both a scan and a heading: check ranges and compass")]
     NoScans,
     /// The quantizer cannot begin.
-    #[error("no states can be made")]
+    #[error("no states can be made; correct the configuration of the GNG")]
     Config(#[from] QuantizerConfigError),
     /// A scan cannot be used.
-    #[error("scan {scan} cannot be used")]
+    #[error("scan {scan} cannot be used; leave it out")]
     Scan {
         /// Number of the scan, from 0.
         scan: usize,
