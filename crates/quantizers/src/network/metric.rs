@@ -132,7 +132,7 @@ impl<S: Scalar> Metric<S> {
 }
 
 /// Returns the maximum magnitude of a feature. Two values within ± limit are at most 2 limits
-/// apart. Rounding may put a prototype slightly beyond the limit, so the divisor is 4 in place of 2.
+/// apart. Rounding may put a prototype slightly beyond the limit, so the divisor is 4, not 2.
 fn limit<S: Scalar>(total_weight: f64) -> S {
     S::from_f64(libm::sqrt(S::MAX_SQUARED_DISTANCE / total_weight) / 4.0)
 }

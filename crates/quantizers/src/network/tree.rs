@@ -212,7 +212,7 @@ impl<S: Scalar> Tree<S> {
         }
     }
 
-    /// Returns whether so many leaves are nearly empty that a new tree pays.
+    /// Returns whether enough leaves are nearly empty for a new tree to pay.
     fn is_sparse(&self) -> bool {
         self.leaves.len() > self.len / 4 + 8
     }
