@@ -110,7 +110,7 @@ enum Verb {
     /// Builds the playground, a page on which robots learn a maze that the reader draws. Needs a
     /// target of rustc and wasm-bindgen; if one is missing, says how to install it
     Playground {
-        /// The file to write [default: target/playground/tolman-playground.html]
+        /// File to write [default: target/playground/tolman-playground.html]
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },

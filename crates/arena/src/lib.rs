@@ -22,7 +22,7 @@
 
 extern crate alloc;
 
-/// Any error.
+/// Any error, for readers and callers that only report it.
 pub type BoxError = Box<dyn core::error::Error + Send + Sync>;
 
 pub mod cast;

@@ -27,7 +27,7 @@ use crate::run::{self, Ended, Limited};
 #[non_exhaustive]
 pub enum LearnError {
     /// The robot cannot wander there.
-    #[error("the robot cannot wander")]
+    #[error("the robot cannot wander on this course; change the course or the robot")]
     Wander(#[from] EpisodeError),
     /// No states can be learned from the robot's scans.
     #[error("no states can be learned from the scans; check the laser or the GNG")]

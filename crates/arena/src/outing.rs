@@ -151,7 +151,7 @@ pub trait Outing: InRun {
 pub struct RobotFacts {
     /// Its name, as in the files of maps.
     pub name: &'static str,
-    /// Its outline.
+    /// Outline of the robot.
     pub body: Body,
     /// Its laser's beams.
     pub ring: Option<Ring>,

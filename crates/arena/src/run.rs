@@ -26,7 +26,7 @@ pub enum LimitedError<E> {
     /// The run has as many time steps as it may have.
     #[error("the run reached its limit of {steps} time steps; raise the limit")]
     OutOfTime {
-        /// The number of time steps made.
+        /// Number of time steps made.
         steps: u32,
     },
     /// The robot failed.

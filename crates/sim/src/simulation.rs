@@ -510,9 +510,9 @@ pub enum StepError {
     /// A command cannot be carried out.
     #[error("robot {}: {source}", robot.0)]
     Command {
-        /// Whose command.
+        /// Robot whose command is at fault.
         robot: RobotId,
-        /// The fault.
+        /// Fault of the command.
         source: CommandError,
     },
 }

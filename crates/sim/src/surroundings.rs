@@ -16,7 +16,7 @@ pub struct Surroundings<'a> {
 /// A half-line in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
-    /// Origin, m.
+    /// Origin of the ray, m.
     pub origin: Point,
     /// Direction: a unit vector.
     pub direction: Vector,

@@ -39,7 +39,7 @@ pub enum ActorError<R, B> {
     #[error("the robot failed")]
     Robot(#[source] R),
     /// The brain refuses its observation.
-    #[error("the brain cannot use what the robot sensed")]
+    #[error("the brain cannot use what the robot sensed; check the robot's sensors")]
     Brain(#[source] B),
     /// The layers cannot read the robot's scans.
     #[error(

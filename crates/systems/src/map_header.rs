@@ -108,7 +108,7 @@ pub enum FileError {
     Unwritable {
         /// System of the map.
         system: &'static str,
-        /// Reason.
+        /// Error of the JSON writer.
         source: serde_json::Error,
     },
 }

@@ -211,8 +211,8 @@ impl Contestant {
         )
     }
 
-    /// Returns the pose in the world of its map's frame, if it started at `start`. For pictures
-    /// only.
+    /// Returns the pose of the map's frame in the world, for a robot that started at `start`. Only
+    /// pictures use it.
     #[must_use]
     pub const fn world_from_map(self, start: Pose) -> Pose {
         match self {

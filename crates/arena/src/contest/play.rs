@@ -192,7 +192,7 @@ pub enum LocateOutcome {
 /// Result of localizing after the robot was put down.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Located {
-    /// Its answer.
+    /// Answer of the system.
     pub outcome: LocateOutcome,
     /// Probability that an ideal observer with the true drawing would name the right cell after the
     /// same drive, 0 … 1: the passive upper bound. `None` if it did not drive.
@@ -460,7 +460,7 @@ pub(super) struct Bout {
 /// Number of time steps before the task in which the robot touched something.
 pub(super) struct Pursuit {
     task: Task,
-    /// Distance driven after which it ends, m.
+    /// Distance driven after which the task ends, m.
     most: f64,
     /// Distance driven, m, after which the robot is put elsewhere without being told, and the pose
     /// there.
@@ -469,7 +469,7 @@ pub(super) struct Pursuit {
     from: usize,
     /// Number of time steps until then in which the robot touched something.
     bumped: usize,
-    /// Metres driven.
+    /// Distance driven so far, m.
     driven: f64,
     /// The last time step that was counted.
     until: usize,

@@ -30,7 +30,7 @@ pub struct ShowRecord {
 /// Result of localizing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FoundOut {
-    /// Its answer.
+    /// Answer of the system.
     pub outcome: LocateOutcome,
     /// Whether the robot stayed where it was put down. A system that only tracks its robot has it
     /// put back.

@@ -40,7 +40,7 @@ pub struct PutDown<'a> {
 /// A maze that a robot knows.
 #[derive(Clone, Copy, Debug)]
 pub struct KnownMaze<'a> {
-    /// The maze.
+    /// Maze that the robot knows.
     pub course: &'a Course,
     /// The trial in which the robot learned its map of it.
     pub learned: &'a TrialRecord,
@@ -70,7 +70,7 @@ pub struct PutDownRecord {
     /// Whether SOINN-AM recalled the right maze of the first fragment walked whole, or `None` if
     /// the robot knew before where it was.
     pub is_recalled: Option<bool>,
-    /// Duration, s.
+    /// Duration of the search, s.
     pub seconds: f64,
     /// Pose of the robot after every step.
     pub path: Vec<Pose>,

@@ -151,7 +151,7 @@ pub enum PlaneMazeError {
     /// A place is not there.
     #[error("place {place} does not exist, there are {count}: add it first")]
     NoSuchPlace {
-        /// Its number.
+        /// Number of the place.
         place: u32,
         /// Number of them.
         count: u32,
@@ -159,7 +159,7 @@ pub enum PlaneMazeError {
     /// No corridor leads to a place.
     #[error("no corridor leads to place {place}: draw one, or leave it out")]
     Isolated {
-        /// Its number.
+        /// Number of the place.
         place: u32,
     },
     /// A point of a corridor or place is NaN or infinite.

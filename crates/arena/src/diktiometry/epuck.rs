@@ -120,7 +120,7 @@ pub enum EpuckSurveyError {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum EpuckRoverError {
-    /// The robot.
+    /// A walk of the robot failed.
     #[error(transparent)]
     Walk(#[from] WalkError<StepError>),
     /// A sweep gives no valid signature.

@@ -182,7 +182,7 @@ pub enum RunError {
     BrokeOff {
         /// Position of the robot.
         at: Point,
-        /// Reason.
+        /// Reason why the robot or the observer cannot continue.
         source: MapError<RoutineError<StepError>>,
     },
     /// The robot is at no place.

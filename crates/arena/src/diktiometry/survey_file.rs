@@ -21,13 +21,13 @@ const FILES: MapFiles = MapFiles {
 pub struct SurveyFile {
     /// World, robot and seed of the survey's beginning. A continuation has other seeds.
     pub origin: Origin,
-    /// The world.
+    /// World that was surveyed.
     pub office: Arc<Office>,
     /// Settings of the robot and its walk. Its mapper is that of the map.
     pub config: SurveyConfig,
     /// Truth of the run so far, for continuing and for scoring.
     pub past: Past,
-    /// The map.
+    /// Observer that holds the map.
     pub observer: Observer,
 }
 

@@ -69,27 +69,27 @@ pub enum BrainError {
          {{\"done\": true}} or {{\"give_up\": \"why\"}}"
     )]
     Answer {
-        /// The number of the time step.
+        /// Number of the time step, from 0.
         step: u32,
         /// The line, or its beginning.
         line: String,
-        /// Why.
+        /// Error of the JSON reader.
         source: serde_json::Error,
     },
     /// The robot's readings have no JSON form.
     #[error("what the robot sensed at step {step} cannot be written")]
     Sensing {
-        /// The number of the time step.
+        /// Number of the time step, from 0.
         step: u32,
-        /// Why.
+        /// Error of the JSON writer.
         source: serde_json::Error,
     },
     /// The robot failed.
-    #[error("the robot does not carry out what the brain answered to step {step}")]
+    #[error("the robot refuses the brain's answer to step {step}; correct the answer")]
     Robot {
-        /// The number of the time step.
+        /// Number of the time step, from 0.
         step: u32,
-        /// Why.
+        /// Reason why the robot refuses the answer.
         source: BoxError,
     },
 }

@@ -100,7 +100,7 @@ pub enum LaunchError {
     /// The program does not start.
     #[error("`{program}` does not start: give the path of a program that can be run")]
     Start {
-        /// Its name.
+        /// Name of the program.
         program: String,
         /// The system's reason.
         source: io::Error,

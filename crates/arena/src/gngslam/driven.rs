@@ -71,7 +71,7 @@ pub enum DrivenMapError {
     #[error(transparent)]
     Map(#[from] PlaceMapError),
     /// The robot makes no progress.
-    #[error("the robot makes no progress")]
+    #[error("the robot makes no progress; choose another seed")]
     Pilot(#[from] PlacePilotError<StepError>),
 }
 

@@ -17,7 +17,7 @@ use crate::Simulated;
 /// True and believed poses of a robot at a look.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LookedFrom {
-    /// True pose.
+    /// True pose of the robot at the look.
     pub truth: Pose,
     /// Pose that the system believes in.
     pub corrected: Pose,

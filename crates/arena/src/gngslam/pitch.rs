@@ -23,7 +23,7 @@ pub struct Pitch {
     pub world: Arc<World>,
     /// Poses of its goals.
     pub goals: Goals,
-    /// Lighting.
+    /// Lighting of the arena.
     pub light: Light,
     /// Its floor and ceiling.
     pub backdrop: Backdrop,

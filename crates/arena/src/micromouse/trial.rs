@@ -16,7 +16,7 @@ pub struct MouseTrial {
     pub gave_up: Option<MouseError>,
 }
 
-/// One step.
+/// One step of a trial, as the referee saw it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RefereedStep {
     /// Reading before the order.
@@ -76,7 +76,7 @@ pub enum MouseTrialError {
     #[error(transparent)]
     Mouse(#[from] MouseError),
     /// The mouse gave an order that breaks the rules.
-    #[error("the mouse broke the rules")]
+    #[error("the mouse broke the rules; correct the order that it gave")]
     Order(#[from] OrderError),
 }
 

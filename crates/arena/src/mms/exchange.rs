@@ -12,9 +12,9 @@ pub struct Exchange {
     pub line: String,
     /// The reply; `None` if it needs none.
     pub reply: Option<String>,
-    /// Position afterwards.
+    /// Position of the mouse afterwards.
     pub place: LatticePoint,
-    /// Heading afterwards.
+    /// Heading of the mouse afterwards.
     pub heading: LatticeHeading,
     /// Whether the mouse moved, turned, ran into a wall or was put back.
     pub is_movement: bool,

@@ -11,7 +11,7 @@ use crate::foreign::{Budget, ForeignProgram, Launch, LaunchError, Left, Overrun}
 /// Limits at which a mouse is stopped.
 #[derive(Clone, Copy, Debug)]
 pub struct Limits {
-    /// Maximum duration.
+    /// Maximum duration of the mouse's run.
     pub time: Duration,
     /// Maximum number of moves, turns and crashes.
     pub movements: u64,

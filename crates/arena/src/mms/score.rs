@@ -5,9 +5,9 @@ use serde::Serialize;
 /// Unit in which a straight is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
-    /// Half-steps, as in the code of mms.
+    /// Straights are measured in half-steps, as in the code of mms.
     HalfSteps,
-    /// Cells, as in the README of mms.
+    /// Straights are measured in cells, as in the README of mms.
     Cells,
 }
 

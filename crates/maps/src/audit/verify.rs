@@ -74,7 +74,7 @@ pub enum AuditCertificateError {
         edge: u32,
         /// χ² of the cycle.
         chi2: f64,
-        /// k².
+        /// Maximum χ², which is k².
         most: f64,
     },
     /// A cycle that should support a closure is beyond its bound or too wide.
@@ -86,7 +86,7 @@ pub enum AuditCertificateError {
         edge: u32,
         /// χ² of the cycle.
         chi2: f64,
-        /// k².
+        /// Maximum χ², which is k².
         most: f64,
     },
     /// A closure has no cycle that supports it.

@@ -129,7 +129,7 @@ pub enum MapFileError {
         "junction {junction} has {ports} ports, but at most {MOST_PORTS} are allowed; learn the map again"
     )]
     TooManyPorts {
-        /// Its number.
+        /// Number of the junction.
         junction: u32,
         /// Number of the junction's ports.
         ports: usize,
@@ -137,7 +137,7 @@ pub enum MapFileError {
     /// The bearings of a junction's ways are invalid.
     #[error("the bearings of junction {junction} are invalid: {source}")]
     Bearings {
-        /// Its number.
+        /// Number of the junction.
         junction: u32,
         /// Fault of the bearings.
         source: BearingsError,
@@ -147,7 +147,7 @@ pub enum MapFileError {
         "junction {junction} has {bearings} bearings for {ports} ports; give one for each port, or none"
     )]
     BearingsOfPorts {
-        /// Its number.
+        /// Number of the junction.
         junction: u32,
         /// Number of its bearings.
         bearings: u32,

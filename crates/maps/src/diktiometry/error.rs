@@ -55,9 +55,9 @@ pub enum ObservedMoveError {
 #[non_exhaustive]
 pub enum StartError {
     /// The configuration is invalid.
-    #[error("the configuration is invalid")]
+    #[error("the configuration is invalid; correct this field")]
     Config(#[from] DiktiometryConfigError),
     /// The view of the first place does not fit the configuration.
-    #[error("the view at the start does not fit the configuration")]
+    #[error("the view at the start does not fit the configuration; correct one of them")]
     Start(#[from] ObservedMoveError),
 }

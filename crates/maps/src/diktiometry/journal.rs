@@ -57,10 +57,10 @@ pub enum UndoError {
 #[non_exhaustive]
 pub enum JournalError {
     /// The observer cannot be made.
-    #[error("no observer can begin as the journal does")]
+    #[error("the journal's first view does not fit its configuration; learn the map again")]
     Start(#[from] StartError),
     /// A move is invalid.
-    #[error("move {number} of the journal is refused")]
+    #[error("move {number} of the journal is refused; learn the map again")]
     Move {
         /// Number of the move, from 1.
         number: usize,

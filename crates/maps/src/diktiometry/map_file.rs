@@ -31,7 +31,7 @@ pub enum MapFileError {
         found: usize,
     },
     /// The journal cannot be replayed.
-    #[error("the journal does not fit the configuration")]
+    #[error("the journal does not fit the configuration; learn the map again")]
     Replay(#[from] JournalError),
 }
 

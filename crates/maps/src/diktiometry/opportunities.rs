@@ -13,7 +13,7 @@ use super::{Action, Link, Observer, PlaceId, PlanStep, Use};
 /// particular situations".
 #[derive(Clone, Debug, PartialEq)]
 pub struct Opportunity {
-    /// Its purpose.
+    /// Purpose of the script.
     pub kind: OpportunityKind,
     /// Place that the script is about.
     pub place: PlaceId,

@@ -92,7 +92,7 @@ pub enum Fate {
 /// "A weighted point-estimate of the place's position (in its canonical reference frame)."
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estim {
-    /// Position, m.
+    /// Position in the place's canonical frame, m.
     pub position: Point,
     /// Number of estimates merged into it.
     pub weight: f64,

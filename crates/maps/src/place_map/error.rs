@@ -88,9 +88,9 @@ pub enum PlaceMapError {
     /// A record's number is beyond the table.
     #[error("there is no record {record}: give a number below {count}")]
     NoSuchRecord {
-        /// The number.
+        /// Number of the record, from 0.
         record: usize,
-        /// Number found.
+        /// Number of records in the table.
         count: usize,
     },
     /// The file has another format, or a later version.
@@ -116,7 +116,7 @@ pub enum PlaceMapError {
     BadScale {
         /// Name of the group.
         group: &'static str,
-        /// Saved scale.
+        /// Scale that was saved.
         scale: f32,
     },
 }

@@ -253,8 +253,8 @@ impl Spot {
         made
     }
 
-    /// Adds to `made` the straights of 1, 2, … cells, each of which is `steps` steps of the heading
-    /// per cell long.
+    /// Adds to `made` the straights of 1, 2, … cells. Each cell of a straight takes `steps` steps
+    /// along the heading.
     fn straights(
         self,
         open: &impl Fn(Point) -> bool,

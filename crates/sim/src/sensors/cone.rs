@@ -13,7 +13,7 @@ pub(super) struct Cone {
 /// The nearest point of a wall within a [`Cone`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ConeEcho {
-    /// Distance, m.
+    /// Distance of the point from the cone's apex, m.
     pub(super) range: f64,
     /// Angle between the direction to the point and the wall's normal, rad, 0 … π/2.
     pub(super) incidence: f64,

@@ -29,9 +29,9 @@ pub struct Transition {
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[non_exhaustive]
 pub struct QLearningConfig {
-    /// α, 0 … 1.
+    /// Learning rate α: weight of a new estimate against the old value, 0 … 1.
     pub learning_rate: f64,
-    /// γ, 0 … 1.
+    /// Discount γ: weight of the next state's value, 0 … 1.
     pub discount: f64,
     /// Share of random actions, 0 to 1.
     pub exploration: f64,

@@ -34,7 +34,7 @@ pub enum MapFileError {
     #[error(transparent)]
     File(#[from] FileError),
     /// The map is of another kind or incomplete.
-    #[error("its map cannot be read")]
+    #[error("its map cannot be read; learn the map again")]
     Map(#[from] cpm::MapFileError),
 }
 

@@ -10,16 +10,16 @@ use tolman_maze::Direction;
 #[non_exhaustive]
 pub enum RoutineError<E: Error + 'static> {
     /// The robot refuses a command.
-    #[error("the robot refuses a command")]
+    #[error("the robot refuses a command; correct its driver")]
     Robot(#[source] E),
     /// A sensor is of no use.
     #[error(transparent)]
     Sense(#[from] SenseError),
     /// A reading is not a number.
-    #[error("odometry is not a number")]
+    #[error("the odometry is not a number; check the wheels' encoders")]
     Reading(#[from] IntervalError),
     /// The robot's view is not a valid signature.
-    #[error("the image gives no signature")]
+    #[error("the image gives no signature; check the camera")]
     Signature(#[from] SignatureError),
     /// No place came in sight.
     #[error("after {steps} time steps the way {direction} has led to no place: lower the noise")]

@@ -41,7 +41,7 @@ pub enum MapError<E: Error + 'static> {
     #[error("the observer cannot begin")]
     Start(#[from] StartError),
     /// The observer refuses a move.
-    #[error("the observer refuses a move")]
+    #[error("the observer refuses a move; check what the rover reports")]
     Step(#[from] ObservedMoveError),
 }
 

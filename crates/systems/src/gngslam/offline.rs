@@ -47,10 +47,10 @@ impl OfflineSlamConfig {
 #[non_exhaustive]
 pub enum OfflineSlamError {
     /// The records have no features.
-    #[error("the records lack a feature that describes places")]
+    #[error("the records lack a feature that describes places; gather them with it")]
     Features(#[from] FeatureError),
     /// The records cannot be learned.
-    #[error("no map can be learned from the records")]
+    #[error("no map can be learned from the records; gather more, or change the configuration")]
     Map(#[from] PlaceMapError),
 }
 

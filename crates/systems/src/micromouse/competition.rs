@@ -64,7 +64,7 @@ pub struct SpeedRunExploration {
 pub struct RunLeg {
     /// Step, with its beginning.
     pub step: RunStep,
-    /// Duration, ms.
+    /// Duration of the move, ms.
     pub time_ms: u16,
 }
 
@@ -73,10 +73,10 @@ pub struct RunLeg {
 #[non_exhaustive]
 pub enum ExploreError {
     /// The mouse's driving parameters are invalid.
-    #[error("the configuration of the mouse is invalid")]
+    #[error("the configuration of the mouse is invalid; correct this value")]
     Config(#[from] SpeedRunConfigError),
     /// The maze has more than 32 columns or rows.
-    #[error("the maze does not fit into the mouse's map")]
+    #[error("the maze does not fit into the mouse's map; give a smaller one")]
     TooLarge(#[from] TooLarge),
     /// The reading contradicts the map.
     #[error("the reading contradicts the mouse's map")]

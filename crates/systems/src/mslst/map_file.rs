@@ -19,7 +19,7 @@ pub struct MapFile {
     pub origin: Origin,
     /// Configuration with which it was learned.
     pub config: MslstConfig,
-    /// The map.
+    /// Map that the robot learned.
     pub learned: Learned,
 }
 
@@ -34,7 +34,7 @@ pub enum MapFileError {
     #[error("its states are invalid; learn the map again")]
     States(#[from] StatesError),
     /// The graph is invalid.
-    #[error("its nodes do not form a graph")]
+    #[error("its nodes do not form a graph; learn the map again")]
     Graph(#[from] GraphError),
     /// A node's state is not among the states.
     #[error(

@@ -16,7 +16,7 @@ use super::{PlacesConfig, Site, SiteKind, SitePlace, SiteStep, SiteWay};
 #[non_exhaustive]
 pub enum PlacesError {
     /// The corridor width is invalid.
-    #[error("the corridor detector cannot be built")]
+    #[error("the corridor detector cannot be built; correct its ring or its width")]
     Corridors(#[from] RingError),
     /// A scan cannot be matched.
     #[error(transparent)]

@@ -53,7 +53,7 @@ pub enum MazeConfigError {
     /// A field of the configuration is outside its range.
     #[error("{field} is {value} but has to be {range}")]
     OutOfRange {
-        /// Its name.
+        /// Name of the field.
         field: &'static str,
         /// The value given.
         value: f64,
@@ -65,7 +65,7 @@ pub enum MazeConfigError {
         "all of a thousand draws of corridor {corridor} look like another one: use more patterns or observations"
     )]
     NotDistinctive {
-        /// Its number.
+        /// Number of the corridor.
         corridor: u32,
     },
     /// The drawing is not a world.

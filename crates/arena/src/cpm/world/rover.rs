@@ -71,8 +71,8 @@ pub struct PlaneWalker<'a> {
 pub enum WalkOutcome {
     /// The rover reached the end of the fragment.
     Arrived(Traversal),
-    /// The rover gave up after these observations. It is back where it was, with the port it tried
-    /// behind it.
+    /// The rover gave up after these observations. It has returned to its place, and the tried port
+    /// is behind it.
     TurnedBack(Vec<PatternId>),
 }
 

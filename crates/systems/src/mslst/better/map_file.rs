@@ -20,7 +20,7 @@ pub struct BetterMapFile {
     pub origin: Origin,
     /// Configuration of the system.
     pub config: BetterConfig,
-    /// The map.
+    /// Map that the robot learned.
     pub chart: ScanChart,
     /// True position of the robot when each place was made, m, for pictures and for checks of the
     /// map alone; empty if unknown.
@@ -36,10 +36,10 @@ pub enum BetterMapFileError {
     #[error(transparent)]
     File(#[from] FileError),
     /// The configuration fits no robot.
-    #[error("its configuration is invalid")]
+    #[error("its configuration is invalid; learn the map again")]
     Config(#[from] BetterConfigError),
     /// The map is invalid.
-    #[error("its chart is invalid")]
+    #[error("its chart is invalid; learn the map again")]
     Chart(#[from] ChartError),
     /// The number of true positions differs from that of places.
     #[error(
