@@ -284,7 +284,7 @@ pub enum SerialError {
     },
     /// The wheels' speeds differ from those commanded.
     #[error(
-        "the e-puck drives at {set:?} steps a second where it was told {told:?}: a byte was lost, or its remote control is in use; open its port again"
+        "the e-puck drives at {set:?} steps a second, but was commanded {told:?}: a byte was lost, or its remote control is in use; open its port again"
     )]
     Speeds {
         /// Commanded speed, left and right, encoder steps a second.

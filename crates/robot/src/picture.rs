@@ -29,9 +29,9 @@ pub struct PinholeCamera {
     pub position: Point,
     /// Height above the floor, m.
     pub height: f64,
-    /// The whole angle that it sees across, rad; below π.
+    /// Horizontal field of view, rad, from edge to edge; below π.
     pub field_across: f64,
-    /// The whole angle that it sees up and down, rad; below π.
+    /// Vertical field of view, rad, from edge to edge; below π.
     pub field_down: f64,
 }
 

@@ -232,7 +232,7 @@ impl UnlocalizedOracle {
         }
     }
 
-    /// Returns the most likely place; the first of equals.
+    /// Returns the most likely place. Of equally likely ones, it is the first.
     fn most_likely(&self) -> Option<Point> {
         let likelier = |best: (Point, f64), next: (Point, f64)| {
             if next.1 > best.1 { next } else { best }

@@ -45,7 +45,7 @@ pub enum PlacePilotError<E> {
     #[error(transparent)]
     Robot(#[from] WandererError<E>),
     /// The map does not know the record.
-    #[error("the map cannot tell where the robot is")]
+    #[error("the map cannot tell where the robot is; give records with its features")]
     Map(#[from] PlaceMapError),
 }
 

@@ -11,7 +11,7 @@ use super::{PlacesConfig, PlacesError, PlacesMapper, Site, SiteWay};
 pub trait OfSites {
     /// The mapper that learns.
     type Mapper: Mapper;
-    /// Reason why it cannot begin.
+    /// Reason why the mapper cannot begin.
     type Error;
 
     /// Returns a map of the first place.
