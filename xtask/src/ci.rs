@@ -12,7 +12,7 @@ use std::env;
 use std::process::Command;
 use std::time::Instant;
 
-use anyhow::{Result, bail};
+use anyhow::{Result, anyhow, bail};
 
 use crate::workspace::{self, built, cargo, installed, succeed};
 use crate::{docs, fuzz, golden, layers, mazes, mutants, playground, prose, python, rerun};
@@ -105,17 +105,16 @@ const MUTANTS: mutants::Shard = mutants::Shard { first: 0, of: 400 };
 /// Duration of fuzzing all readers, seconds.
 const FUZZING: u64 = 600;
 
-/// Runs all steps, with `thorough` also the long ones. The first failure ends the run unless
-/// `keep_going`.
+/// Runs all steps, with `thorough` also the long ones; or those of these names, if there are any.
+/// The first failure ends the run unless `keep_going`.
 ///
 /// # Errors
-/// If a step failed.
-pub(crate) fn run(keep_going: bool, thorough: bool) -> Result<()> {
+/// If a step failed, or has no such name.
+pub(crate) fn run(keep_going: bool, thorough: bool, names: &[String]) -> Result<()> {
     let start = Instant::now();
     let mut table = Vec::new();
     let mut failures = 0;
-    let long = if thorough { THOROUGH } else { &[] };
-    let steps: Vec<&Step> = STEPS.iter().chain(long).collect();
+    let steps = chosen(thorough, names)?;
     for (name, step) in &steps {
         eprintln!("\n== {name}");
         let begun = Instant::now();
@@ -140,6 +139,23 @@ pub(crate) fn run(keep_going: bool, thorough: bool) -> Result<()> {
         (_, 0) => bail!("{failures} of {} steps failed", steps.len()),
         _ => bail!("a step failed, {not_run} more were not run (--keep-going runs them)"),
     }
+}
+
+/// Returns the steps to run.
+fn chosen(thorough: bool, names: &[String]) -> Result<Vec<&'static Step>> {
+    let long = if thorough { THOROUGH } else { &[] };
+    if names.is_empty() {
+        return Ok(STEPS.iter().chain(long).collect());
+    }
+    let named = |name: &String| {
+        let mut all = STEPS.iter().chain(THOROUGH);
+        all.find(|(step, _)| step == name).ok_or_else(|| {
+            let all = STEPS.iter().chain(THOROUGH).map(|(step, _)| *step);
+            let all: Vec<&str> = all.collect();
+            anyhow!("there is no step `{name}`; steps are: {}", all.join(", "))
+        })
+    };
+    names.iter().map(named).collect()
 }
 
 fn print_table(table: &[(&str, Duration, String)], total: Duration) {

@@ -55,6 +55,9 @@ enum Verb {
         /// slowest golden runs, the Python module, replays for Rerun
         #[arg(long)]
         thorough: bool,
+        /// Run this step alone, long or short; may be given several times
+        #[arg(long = "step", value_name = "NAME")]
+        steps: Vec<String>,
     },
     /// Plays a few runs of every experiment and compares them, to the bit, with those in
     /// tests/golden
@@ -125,7 +128,8 @@ fn main() -> ExitCode {
         Verb::Ci {
             keep_going,
             thorough,
-        } => ci::run(keep_going, thorough),
+            steps,
+        } => ci::run(keep_going, thorough, &steps),
         Verb::Golden { names, bless } => golden::run(&names, bless),
         Verb::Layers => layers::run(),
         Verb::Mazes => mazes::run(),

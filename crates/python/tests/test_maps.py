@@ -24,7 +24,7 @@ def test_a_system_learns_a_star(system):
 
 def test_all_systems_learn_something():
     maze = Maze.generate("ring", 5, 5, seed=1)
-    assert len(tolman.systems()) == 9
+    assert len(tolman.systems()) == 10
     for system in tolman.systems():
         if system == "gng-slam-better":
             continue  # It takes some seconds.
