@@ -207,7 +207,7 @@ impl Branches {
 
     /// Returns the number of branches that end at each knot; one that begins and ends there counts
     /// twice.
-    fn degrees(&self) -> BTreeMap<usize, usize> {
+    pub(super) fn degrees(&self) -> BTreeMap<usize, usize> {
         let mut degrees: BTreeMap<usize, usize> =
             self.knots.keys().map(|knot| (*knot, 0)).collect();
         for end in self.branches.iter().flat_map(|branch| branch.ends) {

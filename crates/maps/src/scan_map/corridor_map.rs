@@ -1,12 +1,12 @@
 use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 
-use tolman_geom::Point;
+use tolman_geom::{Point, Vector};
 use tolman_robot::{Landmark, MapLink, MapPlace, MapView};
 
 use super::branches::Branches;
 use super::skeleton::Skeleton;
-use super::wall_grid::{GridIndex, index_of, middle};
+use super::wall_grid::{index_of, middle};
 use super::{ScanChart, WallGrid};
 
 /// The places of a [`ScanChart`] where corridors meet or end or a landmark stands, and the ways
@@ -48,6 +48,10 @@ const STANDS_BY: f64 = 0.65;
 /// Distance from a knot within which a robot would sense the landmark that stands there, as a share
 /// of the corridors' width.
 const HAS_NOTHING: f64 = 0.3;
+/// Maximum distance of a junction from the box of the points at which a landmark was sensed, as a
+/// share of the corridors' width. A robot that explores a junction senses a landmark that stands
+/// there on all sides.
+const SENSED_BY: f64 = 0.25;
 /// Distance from the middle of a place within which a robot is at it, as a share of the corridors'
 /// width.
 const REACH: f64 = 0.33;
@@ -72,13 +76,18 @@ impl CorridorMap {
         branches.prune();
         branches.merge(OPEN * width);
         let reach = STANDS_BY * width / WallGrid::CELL;
+        let degrees = branches.degrees();
+        let is_junction = |number| degrees.get(&number).is_some_and(|degree| *degree > 2);
         let mut marks: Vec<(usize, Option<Landmark>)> = Vec::new();
-        for (at, landmark) in landmarks(chart, width) {
+        for Sensed { landmark, within } in landmarks(chart, width) {
             let may_stand_at = |number, knot| {
                 let is_taken = marks.contains(&(number, landmark));
-                landmark.is_none() || !(is_taken || has_nothing(chart, middle(knot), width))
+                let is_beside =
+                    is_junction(number) && aside(within, middle(knot)) > SENSED_BY * width;
+                landmark.is_none()
+                    || !(is_taken || is_beside || has_nothing(chart, middle(knot), width))
             };
-            let knot = branches.knot_at(at, reach, may_stand_at);
+            let knot = branches.knot_at(index_of(middle_of(within)), reach, may_stand_at);
             marks.extend(knot.map(|knot| (knot, landmark)));
         }
         let numbers: BTreeMap<usize, u32> = branches.knots().keys().copied().zip(0..).collect();
@@ -174,35 +183,53 @@ fn has_nothing(chart: &ScanChart, at: Point, width: f64) -> bool {
         .any(|place| place.landmark.is_none() && (place.position - at).norm() < HAS_NOTHING * width)
 }
 
-/// Returns the cells of landmarks, and the cell where the robot was put down, which may have none.
-fn landmarks(
-    chart: &ScanChart,
-    width: f64,
-) -> impl Iterator<Item = (GridIndex, Option<Landmark>)> + '_ {
+/// A landmark, or none where the robot was put down, and the low and the high corner of the box in
+/// which it was sensed.
+struct Sensed {
+    landmark: Option<Landmark>,
+    within: [Point; 2],
+}
+
+/// Returns the landmarks, and the point where the robot was put down, which may have none.
+fn landmarks(chart: &ScanChart, width: f64) -> impl Iterator<Item = Sensed> + '_ {
+    let sensed = |landmark: Landmark| {
+        move |within| Sensed {
+            landmark: Some(landmark),
+            within,
+        }
+    };
     let goals = goals(chart.goal(), width).into_iter();
-    let goals = goals.map(|at| (index_of(at), Some(Landmark::Goal)));
-    let start = bounds(chart.start()).map(middle_of);
-    let start = start.map(|at| (index_of(at), Some(Landmark::Start)));
+    let goals = goals.map(sensed(Landmark::Goal));
+    let start = bounds(chart.start()).map(sensed(Landmark::Start));
     let mut known = alloc::vec![Some(Landmark::Goal)];
-    known.extend(start.map(|(_, landmark)| landmark));
+    known.extend(start.as_ref().map(|start| start.landmark));
     // A map that knows its start elsewhere begins where the robot was put down after a lift.
     let begins_anywhere = start.is_some();
-    // Of the places where another landmark was sensed, the first is nearest to the landmark.
+    // Of the places where another landmark was sensed, the first is nearest to the landmark. The
+    // extent of such a landmark is unknown.
     let places = chart.places().iter().enumerate();
     let others = places.filter_map(move |(number, place)| {
         let is_new = !known.contains(&place.landmark);
         known.push(place.landmark);
         let is_first = number == 0 && !begins_anywhere;
         let is_meant = is_first || (place.landmark.is_some() && is_new);
-        let landmark = place.landmark.filter(|_| is_new);
-        is_meant.then(|| (index_of(place.position), landmark))
+        let reach = Vector::repeat(STANDS_BY * width);
+        is_meant.then(|| Sensed {
+            landmark: place.landmark.filter(|_| is_new),
+            within: [place.position - reach, place.position + reach],
+        })
     });
     goals.chain(start).chain(others)
 }
 
-/// Returns the positions of the goal that was sensed at these points: one for each of adjacent
+/// Returns the distance of a point from a box, m.
+fn aside([low, high]: [Point; 2], at: Point) -> f64 {
+    (at - at.sup(&low).inf(&high)).norm()
+}
+
+/// Returns the boxes in which the goal was sensed at these points: one for each of adjacent
 /// corridors.
-fn goals(sensed: &[Point], width: f64) -> Vec<Point> {
+fn goals(sensed: &[Point], width: f64) -> Vec<[Point; 2]> {
     let Some([low, high]) = bounds(sensed) else {
         return Vec::new();
     };
@@ -218,8 +245,7 @@ fn goals(sensed: &[Point], width: f64) -> Vec<Point> {
     for at in sensed {
         parts.entry(part(at)).or_default().push(*at);
     }
-    let bounds = parts.values().filter_map(|points| bounds(points));
-    bounds.map(middle_of).collect()
+    parts.values().filter_map(|points| bounds(points)).collect()
 }
 
 fn middle_of([low, high]: [Point; 2]) -> Point {

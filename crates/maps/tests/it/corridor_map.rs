@@ -1,24 +1,33 @@
 //! Places and ways of grounds that are drawn by hand.
 
 use tolman_geom::Point;
-use tolman_maps::scan_map::{ChartParts, CorridorMap, ScanChart, ScanPlace, WallGrid};
+use tolman_maps::scan_map::{
+    ChartParts, CorridorMap, CorridorPlace, ScanChart, ScanPlace, WallGrid,
+};
 use tolman_robot::Landmark;
 
 /// Cells of the map for a letter of a drawing: a corridor as wide as one is 0.95 m wide.
 const CELLS: usize = 19;
 const WIDTH: f64 = CELLS as f64 * WallGrid::CELL;
 
-/// Returns the map of a drawing, in rows from south to north: `#` is wall, `G` the goal, all else
-/// floor. The robot began at `S`.
+/// Returns the middle of the first cell of a drawing with this letter, m.
+fn middle(drawing: &[&str], letter: char) -> Option<Point> {
+    let mut rows = (0..).zip(drawing);
+    rows.find_map(|(row, text)| {
+        let column = text.find(letter)?;
+        let along = |index: usize| (index as f64 + 0.5) * WIDTH;
+        Some(Point::new(along(column), along(row)))
+    })
+}
+
+/// Returns the map of a drawing whose goal was sensed in the middle of `G`.
 fn map(drawing: &[&str]) -> CorridorMap {
-    let middle = |letter| {
-        let mut rows = (0..).zip(drawing);
-        rows.find_map(|(row, text)| {
-            let column = text.find(letter)?;
-            let along = |index: usize| (index as f64 + 0.5) * WIDTH;
-            Some(Point::new(along(column), along(row)))
-        })
-    };
+    map_with(drawing, middle(drawing, 'G').into_iter().collect())
+}
+
+/// Returns the map of a drawing, in rows from south to north: `#` is wall, all else floor. The
+/// robot began at `S`, and sensed the goal at these points, m.
+fn map_with(drawing: &[&str], goal: Vec<Point>) -> CorridorMap {
     let row = |text: &&str| {
         let cells = text.chars().flat_map(|letter| {
             let cell = if letter == '#' { '#' } else { '.' };
@@ -29,11 +38,11 @@ fn map(drawing: &[&str]) -> CorridorMap {
     let parts = ChartParts {
         radius: 0.225,
         places: vec![ScanPlace {
-            position: middle('S').unwrap(),
+            position: middle(drawing, 'S').unwrap(),
             landmark: Some(Landmark::Start),
         }],
         links: Vec::new(),
-        goal: middle('G').into_iter().collect(),
+        goal,
         start: Vec::new(),
         surprise: 0.0,
         cell: WallGrid::CELL,
@@ -72,6 +81,19 @@ fn places_are_where_corridors_meet_or_end_and_where_landmarks_stand() {
         );
         assert!(!map.is_open());
     }
+}
+
+#[test]
+fn a_goal_in_a_bend_beside_a_junction_is_a_place_of_its_own() {
+    let drawing = ["#####", "##.##", "#S.G#", "###.#", "#####"];
+    let goal = middle(&drawing, 'G').unwrap();
+    // The robot cut the bend, and sensed the goal in the half that is nearer to the junction.
+    let sensed = |share: f64| Point::new(goal.x - share * WIDTH, goal.y);
+    let map = map_with(&drawing, vec![sensed(0.45), sensed(0.32)]);
+    assert_eq!((map.places().len(), map.ways().len()), (5, 4), "{map:?}");
+    let marked = |landmark| move |place: &&CorridorPlace| place.landmark == Some(landmark);
+    let found = map.places().iter().find(marked(Landmark::Goal)).unwrap();
+    assert!((found.position - goal).norm() < 0.5 * WIDTH, "{map:?}");
 }
 
 #[test]
