@@ -6,8 +6,8 @@
 //! 1. A [`ScanMap`] takes in each [advance](Advance) of the robot with the scan at its end. It fits
 //!    the scan to the known walls and so corrects the position. Then it draws new walls on a
 //!    [`WallGrid`], and finds the place or adds it.
-//! 2. [`Clearings`] are the ground where the robot can stand and has not been: [where the map has
-//!    gaps](WayToGap).
+//! 2. [`Clearings`] are the ground where the robot can stand, with the [ways](GroundWay) to where
+//!    it has not been.
 //! 3. A [`ScanChart`] is the map once learning is over: the [ground](GroundPlan), two bits a cell,
 //!    the places and the links. A file holds its [parts](ChartParts).
 //! 4. A [`CorridorMap`] has the places where corridors meet or end, and the ways between them.
@@ -35,7 +35,7 @@ mod wall_grid;
 
 pub use belief::StandpointBelief;
 pub use chart::{ChartError, ChartParts, ScanChart};
-pub use clearings::{Clearings, WayToGap};
+pub use clearings::{Clearings, GroundWay};
 pub use config::ScanMapConfig;
 pub use corridor_map::{CorridorMap, CorridorPlace, CorridorWay};
 pub use evidence::Explanation;

@@ -14,11 +14,11 @@ pub struct Clearings<'a> {
     radius: f64,
 }
 
-/// Distances to the nearest ground where the robot has not been, as far as they were computed.
+/// Distances over the ground to where a way leads, as far as they were computed.
 #[derive(Debug)]
-pub struct WayToGap<'a> {
+pub struct GroundWay<'a> {
     clearings: &'a Clearings<'a>,
-    /// Number of cells to the gap, by slot of the grid.
+    /// Number of cells to the end of the way, by slot of the grid.
     cells: Vec<u32>,
 }
 
@@ -57,20 +57,32 @@ impl<'a> Clearings<'a> {
     /// Returns the way from about `from` to the nearest ground where the robot could stand and has
     /// not been; `None` if there is none. O(cells on the way).
     #[must_use]
-    pub fn way_to_gap(&self, from: Point) -> Option<WayToGap<'_>> {
+    pub fn way_to_gap(&self, from: Point) -> Option<GroundWay<'_>> {
         let starts = self.stands_by(from);
         let (gap, _) = self.flood(&starts, |_, slot, _| !self.grid.was_visited(slot));
+        Some(self.way_between(&starts, &[gap?]))
+    }
+
+    /// Returns the way from about `from` to about `to`; `None` if the robot cannot stand at either.
+    /// O(cells on the way).
+    #[must_use]
+    pub fn way_to(&self, from: Point, to: Point) -> Option<GroundWay<'_>> {
+        let (starts, ends) = (self.stands_by(from), self.stands_by(to));
+        (!starts.is_empty() && !ends.is_empty()).then(|| self.way_between(&starts, &ends))
+    }
+
+    fn way_between(&self, starts: &[GridIndex], ends: &[GridIndex]) -> GroundWay<'_> {
         let mut limit = None;
-        let (_, cells) = self.flood(&[gap?], |index, _, cells| {
+        let (_, cells) = self.flood(ends, |index, _, cells| {
             if limit.is_none() && starts.contains(&index) {
                 limit = Some(cells + ASTRAY);
             }
             limit.is_some_and(|limit| cells > limit)
         });
-        Some(WayToGap {
+        GroundWay {
             clearings: self,
             cells,
-        })
+        }
     }
 
     /// Returns whether any of the places leads to ground where the robot could stand and has not
@@ -149,8 +161,8 @@ impl<'a> Clearings<'a> {
     }
 }
 
-impl WayToGap<'_> {
-    /// Returns the distance from a point to the gap, m; `None` if it was not computed.
+impl GroundWay<'_> {
+    /// Returns the distance from a point to the way's end, m; `None` if it was not computed.
     #[must_use]
     pub fn metres(&self, from: Point) -> Option<f64> {
         let stands = self.clearings.stands_by(from).into_iter();
@@ -223,6 +235,21 @@ mod tests {
         // Off the computed cells, the nearest of them counts if it is near.
         assert_eq!(way.metres(at(computed - BY)), way.metres(at(computed)));
         assert_eq!(way.metres(at(computed - BY - 1)), None);
+    }
+
+    #[test]
+    fn the_way_to_a_point_leads_to_the_ground_about_it() {
+        let grid = corridor(80, 80);
+        let clearings = Clearings::new(&grid, RADIUS);
+        let at = |column| middle([column, 1]);
+        let way = clearings.way_to(at(50), at(20)).unwrap();
+        for column in [26, 40, 50] {
+            let expected = f64::from(column - 20 - BY) * WallGrid::CELL;
+            let metres = way.metres(at(column)).unwrap();
+            assert!((metres - expected).abs() < 1e-9, "{column}: {metres}");
+        }
+        assert_eq!(way.metres(at(70)), None);
+        assert!(clearings.way_to(at(50), middle([20, 20])).is_none());
     }
 
     #[test]

@@ -3,7 +3,7 @@ use core::convert::Infallible;
 use rand::{Rng, RngExt};
 use tolman_control::{StuckBeams, heading_of, unit_of};
 use tolman_geom::Point;
-use tolman_maps::scan_map::{Advance, Clearings, CorridorMap, ScanMap, ScanMapConfig, WayToGap};
+use tolman_maps::scan_map::{Advance, Clearings, CorridorMap, GroundWay, ScanMap, ScanMapConfig};
 use tolman_maze::Direction;
 use tolman_robot::{Guess, MapView, Mapper, Position, Scan, Standing, Task};
 
@@ -12,7 +12,10 @@ use super::stop::Stop;
 use super::{BetterConfig, BetterPart};
 use crate::{Brain, Doing, RolledStep};
 
-/// Learns a [`ScanMap`], and goes to its gaps until none is left.
+/// Learns a [`ScanMap`]: goes to its gaps until none is left, then back to where the map begins.
+///
+/// If the robot was moved meanwhile, the way back leads through walls or past openings that are not
+/// on the map.
 #[derive(Clone, Debug)]
 pub struct BetterExplorer {
     config: BetterConfig,
@@ -32,16 +35,22 @@ pub struct BetterExplorer {
     /// Number of dropped maps because the robot was lifted.
     dropped: u32,
     forgotten: usize,
+    /// Number of actions left to come back; `None` while there are gaps.
+    homeward: Option<f64>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Plan {
     /// Go to a gap.
     Go(Direction),
-    /// A gap is left, but no action seems to lead nearer.
+    /// No gap is left: go back to where the map begins.
+    Return(Direction),
+    /// A gap is left, or the way back, but no action seems to lead nearer.
     Stuck,
-    /// No gap is left.
+    /// No gap is left, and it is back.
     Finished,
+    /// No gap is left, and it does not come back.
+    Strayed,
 }
 
 /// Probability that its map is right if something contradicts it, and if nothing does: by 250 maps
@@ -51,6 +60,11 @@ const SURE: f64 = 0.98;
 /// Number of dropped maps above which contradicting walls are no sign of a lift: walls of rooms may
 /// contradict one another without a lift.
 const MOST_DROPPED: u32 = 3;
+/// Distance from where the map begins at which the robot is back, as a share of an action's way.
+const BACK: f64 = 0.6;
+/// Number of actions in which the robot has to be back, for each action of the shortest way, and
+/// for the last piece of it.
+const MOST_HOMEWARD: [f64; 2] = [3.0, 20.0];
 /// Cost of a quarter turn, as a distance, m.
 const TURN: f64 = 0.35;
 
@@ -74,6 +88,7 @@ impl BetterExplorer {
             stop: None,
             dropped: 0,
             forgotten: 0,
+            homeward: None,
         }
     }
 
@@ -93,10 +108,15 @@ impl BetterExplorer {
     /// `None` if there is none.
     #[must_use]
     pub fn doubt(&self) -> Option<&'static str> {
-        if self.plan != Plan::Finished {
-            return Some("a gap is left that it did not come to: try another --seed");
+        match self.plan {
+            Plan::Finished => self.map.chart().doubt(),
+            Plan::Return(_) | Plan::Strayed => {
+                Some("it did not come back to where its map begins: try another --seed")
+            }
+            Plan::Go(_) | Plan::Stuck => {
+                Some("a gap is left that it did not come to: try another --seed")
+            }
         }
-        self.map.chart().doubt()
     }
 
     /// Returns the learned map.
@@ -138,16 +158,49 @@ impl BetterExplorer {
         self.plan = self.consult(scan, heading.radians());
     }
 
-    fn consult(&self, scan: &Scan, heading: f64) -> Plan {
+    fn consult(&mut self, scan: &Scan, heading: f64) -> Plan {
         let clearings = self.map.clearings();
-        let Some(way) = clearings.way_to_gap(self.map.position()) else {
-            let places = self.map.places().iter().map(|place| place.position);
-            return if clearings.has_gap(places) {
-                Plan::Stuck
-            } else {
-                Plan::Finished
-            };
+        if let Some(way) = clearings.way_to_gap(self.map.position()) {
+            self.homeward = None;
+            let action = self.towards(&clearings, &way, scan, heading);
+            return action.map_or(Plan::Stuck, Plan::Go);
+        }
+        let places = self.map.places().iter().map(|place| place.position);
+        if clearings.has_gap(places) {
+            return Plan::Stuck;
+        }
+        if !self.config.has(BetterPart::Lifts) || self.is_back() {
+            return Plan::Finished;
+        }
+        let Some(way) = clearings.way_to(self.map.position(), Point::origin()) else {
+            return Plan::Strayed;
         };
+        let [each, last] = MOST_HOMEWARD;
+        let left = way.metres(self.map.position()).unwrap_or(0.0) / self.config.action_way;
+        let homeward = self.homeward.unwrap_or(last + each * left);
+        self.homeward = Some(homeward - 1.0);
+        if homeward < 0.0 {
+            return Plan::Strayed;
+        }
+        let action = self.towards(&clearings, &way, scan, heading);
+        action.map_or(Plan::Stuck, Plan::Return)
+    }
+
+    /// Returns whether the robot is where its map begins.
+    fn is_back(&self) -> bool {
+        let to = Point::origin() - self.map.position();
+        to.norm() <= BACK * self.config.action_way
+            && self.map.grid().sees(self.map.position(), Point::origin())
+    }
+
+    /// Returns the action that leads nearest to a way's end; `None` if all lead away.
+    fn towards(
+        &self,
+        clearings: &Clearings<'_>,
+        way: &GroundWay<'_>,
+        scan: &Scan,
+        heading: f64,
+    ) -> Option<Direction> {
         let here = way.metres(self.map.position());
         let worth = |action: Direction| {
             if self.failed.contains(&action) || self.is_blocked(action, scan, heading) {
@@ -157,23 +210,20 @@ impl BetterExplorer {
                 Some(last) if last == action || last == action.opposite() => 0.0,
                 _ => TURN,
             };
-            Some((self.left_after(action, &clearings, &way)? + turn, action))
+            Some((self.left_after(action, clearings, way)? + turn, action))
         };
         let best = Direction::ALL.into_iter().filter_map(worth);
-        match best.min_by(|a, b| a.0.total_cmp(&b.0)) {
-            Some((left, action)) if here.is_none_or(|here| left < here + TURN + 0.2) => {
-                Plan::Go(action)
-            }
-            _ => Plan::Stuck,
-        }
+        let (left, action) = best.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let leads_nearer = here.is_none_or(|here| left < here + TURN + 0.2);
+        leads_nearer.then_some(action)
     }
 
-    /// Returns the average distance to the gap after an action, m.
+    /// Returns the average distance to a way's end after an action, m.
     fn left_after(
         &self,
         action: Direction,
         clearings: &Clearings<'_>,
-        way: &WayToGap<'_>,
+        way: &GroundWay<'_>,
     ) -> Option<f64> {
         let reach = self.config.action_way;
         let free = clearings.straight(self.map.position(), unit_of(action), 1.3 * reach);
@@ -274,13 +324,16 @@ impl Mapper for BetterExplorer {
 impl Brain for BetterExplorer {
     fn choose(&mut self, rng: &mut dyn Rng) -> Direction {
         match self.plan {
-            Plan::Go(action) => action,
-            Plan::Stuck | Plan::Finished => Direction::ALL[rng.random_range(0..4)],
+            Plan::Go(action) | Plan::Return(action) => action,
+            Plan::Stuck | Plan::Finished | Plan::Strayed => Direction::ALL[rng.random_range(0..4)],
         }
     }
 
     fn standing(&self, task: Task) -> Standing {
         match task {
+            Task::Explore if self.plan == Plan::Strayed => {
+                Standing::gave_up("it did not come back to where its map begins")
+            }
             Task::Explore if self.plan != Plan::Finished => Standing::UnderWay,
             Task::Explore if self.map.goal().is_empty() => {
                 Standing::gave_up("it has been everywhere and the goal was nowhere")
@@ -301,7 +354,9 @@ impl Brain for BetterExplorer {
         match self.plan {
             Plan::Go(_) => format!("{places} places, on the way to a gap"),
             Plan::Stuck => format!("{places} places, a gap is left but nothing leads there"),
+            Plan::Return(_) => format!("{places} places, no gap is left, on the way back"),
             Plan::Finished => format!("{places} places, no gap is left"),
+            Plan::Strayed => format!("{places} places, it does not come back"),
         }
     }
 }
