@@ -169,7 +169,8 @@ impl BetterExplorer {
         if clearings.has_gap(places) {
             return Plan::Stuck;
         }
-        if !self.config.has(BetterPart::Lifts) || self.is_back() {
+        let was_back = self.plan == Plan::Finished;
+        if was_back || !self.config.has(BetterPart::Lifts) || self.is_back() {
             return Plan::Finished;
         }
         let Some(way) = clearings.way_to(self.map.position(), Point::origin()) else {
