@@ -34,6 +34,7 @@ pub struct BetterExplorer {
     stop: Option<Stop>,
     /// Number of dropped maps because the robot was lifted.
     dropped: u32,
+    /// Number of actions on dropped maps.
     forgotten: usize,
     /// Number of actions left to come back; `None` while there are gaps.
     homeward: Option<f64>,
