@@ -41,7 +41,7 @@ pub struct BetterLearned {
     pub map: Arc<BetterMap>,
     /// How learning ended.
     pub ended: Ended,
-    /// Number of actions until it had been everywhere.
+    /// Number of actions until the robot had been everywhere.
     pub actions: u32,
     /// True position of the robot when each place was made, by id, m.
     pub positions: Vec<Point>,

@@ -112,7 +112,7 @@ pub enum CompareError {
     Worlds {
         /// Name of the first trace.
         first: String,
-        /// Name of the trace that differs from it.
+        /// Name of the trace that differs from the first.
         second: String,
     },
     /// The time steps have different lengths.
@@ -124,7 +124,7 @@ pub enum CompareError {
         first: String,
         /// Time step of the first trace, µs.
         first_us: u64,
-        /// Name of the trace that differs from it.
+        /// Name of the trace that differs from the first.
         second: String,
         /// Time step of the second trace, µs.
         second_us: u64,

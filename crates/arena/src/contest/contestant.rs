@@ -66,7 +66,7 @@ pub enum Contestant {
 /// The robot that a contestant drives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ContestRobot {
-    /// The robot of its paper.
+    /// The robot of the contestant's paper.
     Own,
     /// The laser Pioneer with compass and encoders.
     Pioneer,

@@ -27,7 +27,7 @@ pub struct TrueGraph {
 /// A way between two places.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TrueWay {
-    /// The places at its ends, which may be the same.
+    /// The places at the way's ends, which may be the same.
     pub ends: [Cell; 2],
     /// The cells in between, from the first end to the second.
     pub between: Vec<Cell>,

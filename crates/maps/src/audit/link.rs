@@ -18,13 +18,14 @@ pub(super) struct Link {
     /// agrees.
     pub(super) off: Motion,
     pub(super) off_inverse: Motion,
-    /// The covariance of its measurement, seen from the first pose of the second pose's piece.
+    /// Covariance of the closure's measurement, seen from the first pose of the second pose's
+    /// piece.
     pub(super) spread: Spread,
     pub(super) cost: f64,
     pub(super) run: u32,
 }
 
-/// Returns whether the gap is within its bound.
+/// Residual of a cycle: its χ² and its spread.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gap {
     pub(super) chi2: f64,

@@ -98,7 +98,7 @@ pub enum PlaceMapError {
     WrongFormat {
         /// Format that the file states.
         format: alloc::string::String,
-        /// The version it says.
+        /// Version that the file names.
         version: u32,
     },
     /// The network of a saved map has another number of features than its groups have values.

@@ -33,7 +33,7 @@ pub struct CorridorPlace {
 /// A way of a [`CorridorMap`], which can be gone either way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CorridorWay {
-    /// Numbers of the places at its ends, which may be the same.
+    /// Numbers of the places at the way's ends, which may be the same.
     pub ends: [u32; 2],
     /// Length of the way, m.
     pub length: f64,

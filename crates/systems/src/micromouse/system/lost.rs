@@ -14,10 +14,10 @@ use crate::micromouse::{SIDE, Search};
 /// Belief of a mouse that was put down anywhere in the maze.
 #[derive(Clone, Debug)]
 pub(super) struct Lost {
-    /// Its possible poses; the compass gives its heading.
+    /// Possible poses of the mouse. The compass gives its heading.
     pub(super) poses: PoseSet<SIDE>,
     looks: Direction,
-    /// Middle of its cell, m, in a frame that may be off by whole cells.
+    /// Middle of the mouse's cell, m, in a frame that may be off by whole cells.
     middle: Point,
 }
 
