@@ -204,7 +204,7 @@ impl Course {
         Ok(course)
     }
 
-    /// Returns whether it is a free world, in which walls stand anywhere.
+    /// Returns whether the course is a free world, in which walls stand anywhere.
     #[must_use]
     pub const fn is_free(&self) -> bool {
         self.free.is_some()

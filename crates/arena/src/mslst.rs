@@ -26,7 +26,7 @@ use crate::run::{self, Ended, Limited};
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LearnError {
-    /// The robot cannot wander there.
+    /// The robot cannot wander on the course.
     #[error("the robot cannot wander on this course; change the course or the robot")]
     Wander(#[from] EpisodeError),
     /// No states can be learned from the robot's scans.

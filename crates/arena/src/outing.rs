@@ -99,7 +99,7 @@ pub trait Outing: InRun {
         Err("its robot is not lifted".into())
     }
 
-    /// Exchanges its system, with all that it has learned, for that of another outing.
+    /// Exchanges the outing's system, with all that it has learned, for that of another outing.
     ///
     /// # Errors
     /// If they are not of one kind, on robots of one kind.
@@ -222,7 +222,7 @@ pub trait Depicted: Recordable {
     /// The robot's name, as in the files of maps.
     const NAME: &'static str;
 
-    /// Returns its laser's beams.
+    /// Returns the beams of the robot's laser; `None` without a laser.
     fn ring(&self) -> Option<Ring> {
         None
     }

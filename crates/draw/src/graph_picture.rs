@@ -402,7 +402,7 @@ impl GraphEdge {
         self
     }
 
-    /// Sets how it is drawn.
+    /// Sets the style of the edge's line.
     #[must_use]
     pub const fn line(mut self, line: EdgeLine) -> Self {
         self.line = line;

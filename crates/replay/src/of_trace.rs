@@ -20,7 +20,7 @@ use super::{DoorChange, Fact, Mark, Marks, Replay, RobotTrack, Scenery, SceneryD
 
 /// A kind of robot that replays can show. It adds the sensor and the commands to the body.
 pub trait Portrait: Recordable {
-    /// Returns its range sensor, or `None` if it has none.
+    /// Returns the robot's range sensor, or `None` if the robot has none.
     fn ring(config: &Self::Config) -> Option<Ring>;
 
     /// Returns the named parts of a command, as shares of their full rates.

@@ -111,7 +111,7 @@ pub struct MapPlace {
     pub id: u32,
     /// Position, m, in the map's own frame; `None` if the map does not know it.
     pub position: Option<Point>,
-    /// The landmark that stands there.
+    /// The landmark of the place; `None` without one.
     pub landmark: Option<Landmark>,
 }
 

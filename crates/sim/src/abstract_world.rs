@@ -289,7 +289,7 @@ impl AbstractRobot {
         &self.world
     }
 
-    /// Returns the place it is at.
+    /// Returns the number of the place where the robot is.
     #[must_use]
     pub const fn at(&self) -> u32 {
         self.at

@@ -204,7 +204,7 @@ impl<'a> Chart<'a> {
         self.links.get(&place).map_or(0, Vec::len)
     }
 
-    /// Returns whether it stands for a cell inside a way, and is part of a chain.
+    /// Returns whether a place stands for a cell inside a way, and is part of a chain.
     fn is_amid(&self, place: u32) -> bool {
         !self.is_true_place(place) && self.cell(place).is_some() && self.degree(place) == 2
     }

@@ -776,7 +776,7 @@ impl Bout {
         })
     }
 
-    /// Returns its answer after localizing has ended, compared with the truth.
+    /// Returns the system's answer after localizing has ended, compared with the truth.
     pub(super) fn outcome(&self, end: TaskEnd) -> LocateOutcome {
         match end {
             TaskEnd::Done => self.found(),

@@ -34,7 +34,7 @@ pub struct TrueWay {
 }
 
 impl TrueWay {
-    /// Returns whether it joins two places, in either order.
+    /// Returns whether the way joins two places, in either order.
     #[must_use]
     pub fn joins(&self, one: Cell, other: Cell) -> bool {
         self.ends == [one, other] || self.ends == [other, one]

@@ -132,7 +132,7 @@ impl<'a> Sender<'a> {
     }
 }
 
-/// Returns its most likely position, if enough of the belief is near that position.
+/// Returns the most likely position of a belief, if enough of the belief is near that position.
 fn sure_of(belief: &[Guess], pitch: f64) -> Option<Point> {
     let point = |guess: &Guess| match guess.at {
         Position::Point(point) => Some(point),

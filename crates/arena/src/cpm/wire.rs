@@ -36,7 +36,7 @@ struct Firmware {
     turned: [f64; 2],
     heard: Vec<u8>,
     answers: VecDeque<u8>,
-    /// Number of incoming bytes until one is lost.
+    /// Number of incoming bytes until the next one is lost; `None` if no byte will be lost.
     lost: Option<usize>,
 }
 

@@ -131,7 +131,8 @@ impl ForeignBrain {
         })
     }
 
-    /// Tells it the readings, and returns its answer; `None` if it has closed its stdout.
+    /// Sends the readings to the program, and returns its answer; `None` if it has closed its
+    /// stdout.
     fn ask(&mut self, step: &Value) -> Result<Option<String>, Overrun> {
         let Some(program) = &mut self.program else {
             return Ok(None);

@@ -128,8 +128,8 @@ impl Pitch {
         self.room.holds(point)
     }
 
-    /// Returns its world for `tolman`'s commands: the zone `destination` lies before the blue goal,
-    /// and `start` before the yellow one.
+    /// Returns the arena's world for `tolman`'s commands: the zone `destination` lies before the
+    /// blue goal, and `start` before the yellow one.
     ///
     /// # Errors
     /// None.

@@ -48,9 +48,9 @@ pub enum FeatureError {
     OtherSoundings {
         /// Number of the record, from 0.
         record: usize,
-        /// Number in the first record.
+        /// Number of soundings in the first record.
         expected: usize,
-        /// Number in this record.
+        /// Number of soundings in the refused record.
         found: usize,
     },
     /// A range or a position is NaN or infinite.

@@ -26,7 +26,7 @@ pub struct CorridorMap {
 pub struct CorridorPlace {
     /// Middle of the place, m.
     pub position: Point,
-    /// Landmark that stands there; `None` if there is none.
+    /// Landmark of the place; `None` without one.
     pub landmark: Option<Landmark>,
 }
 

@@ -33,13 +33,13 @@ pub struct SoinnConfig {
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum ErrorInsertion {
-    /// Undone if one of q, f, r has a mean error beyond its radius.
+    /// The insertion is undone if one of q, f and r has a mean error beyond its radius.
     #[default]
     UnlessOneGrew,
-    /// Undone only if all three have grown: the paper's "∀ i ∈ {q, r, f}", taken literally.
-    /// Networks become many times as large.
+    /// The insertion is undone only if all three have grown: the paper's "∀ i ∈ {q, r, f}", taken
+    /// literally. Networks become many times as large.
     UnlessAllGrew,
-    /// None at all, as in E-SOINN (Furao, Ogura, Hasegawa 2007).
+    /// No unit is inserted, as in E-SOINN (Furao, Ogura, Hasegawa 2007).
     Off,
 }
 

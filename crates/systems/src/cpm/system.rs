@@ -176,7 +176,7 @@ impl Cpm {
         self.on
     }
 
-    /// Returns its explorer with the map; `None` before the first action.
+    /// Returns the system's explorer with the map; `None` before the first action.
     #[must_use]
     pub fn explorer(&self) -> Option<&Explorer> {
         self.layer.as_ref().map(Layer3::explorer)
@@ -369,7 +369,7 @@ impl Cpm {
         }
     }
 
-    /// Drops its map and begins another at the robot's place, with the patterns it learned.
+    /// Drops the map and begins another at the robot's place, with the patterns learned so far.
     fn begin_elsewhere(&mut self) -> Standing {
         if let Some(layer) = self.layer.take() {
             self.patterns = layer.patterns().clone();

@@ -379,7 +379,7 @@ impl<B: CpmRobot> Walker<B> {
         Ok(self.look()?.profile)
     }
 
-    /// Returns its configuration.
+    /// Returns the walker's configuration.
     pub const fn config(&self) -> &WalkerConfig {
         &self.config
     }

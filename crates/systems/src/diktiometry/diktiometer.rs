@@ -126,7 +126,7 @@ impl<E> Diktiometer<E> {
         }
     }
 
-    /// Returns its configuration.
+    /// Returns the system's configuration.
     #[must_use]
     pub const fn config(&self) -> &DiktiometerConfig {
         &self.config

@@ -275,7 +275,7 @@ impl OnlineSlam {
         self.config.explore == ExplorationPolicy::ToTheUnknown && self.looks_round == 0
     }
 
-    /// Returns whether it has found no place for many looks, and has no frontier left.
+    /// Returns whether the system has found no place for many looks, and no frontier is left.
     fn has_explored(&self) -> bool {
         let is_quiet = self.quiet >= self.config.quiet_looks;
         is_quiet && (self.ends_here || self.config.explore == ExplorationPolicy::ByChance)

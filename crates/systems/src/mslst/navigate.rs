@@ -76,7 +76,7 @@ impl Navigator {
         &self.map
     }
 
-    /// Returns its state.
+    /// Returns the navigator's state.
     #[must_use]
     pub const fn situation(&self) -> &NavigationState {
         &self.situation

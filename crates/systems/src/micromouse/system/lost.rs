@@ -43,7 +43,7 @@ impl Lost {
 }
 
 impl<S: Search> MazeMouse<S> {
-    /// Forgets its place: the mouse may be in any cell where it has been.
+    /// Forgets the mouse's place: the mouse may be in any cell where it has been.
     pub(super) fn lose_itself(&mut self) -> Standing {
         let looks = Direction::North;
         let cells = self.brief.grid.cells();

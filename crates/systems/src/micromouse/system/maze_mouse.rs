@@ -112,13 +112,13 @@ impl<S: Search> MazeMouse<S> {
         })
     }
 
-    /// Returns the walls it knows.
+    /// Returns the walls that the mouse knows.
     #[must_use]
     pub const fn walls(&self) -> &WallMap<SIDE> {
         &self.walls
     }
 
-    /// Returns its believed pose, in the frame of the maze.
+    /// Returns the mouse's believed pose, in the frame of the maze.
     #[must_use]
     pub const fn pose(&self) -> Pose {
         self.pilot.pose()

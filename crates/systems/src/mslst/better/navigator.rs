@@ -98,7 +98,7 @@ impl BetterNavigator {
         self.belief.certainty(&map.standpoints, within)
     }
 
-    /// Returns whether its likeliest standpoint is at a place of its map.
+    /// Returns whether the likeliest standpoint is at a place of the map.
     fn is_at_a_place(&self) -> bool {
         let corridors = self.maps.learned().corridors();
         self.likeliest()
