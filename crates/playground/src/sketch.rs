@@ -39,7 +39,7 @@ pub struct SketchWall {
     pub side: Direction,
     /// Whether the wall stands.
     pub stands: bool,
-    /// Whether it is a part of the border, which always stands.
+    /// Whether the wall is a part of the border, which always stands.
     pub is_border: bool,
 }
 

@@ -61,7 +61,7 @@ pub enum MouseExit {
     TooMuchOutput,
     /// The mouse closed its stdout and ran on.
     ClosedOutput,
-    /// The caller interrupted it.
+    /// The caller interrupted the game.
     Interrupted,
 }
 

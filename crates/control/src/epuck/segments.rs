@@ -194,8 +194,8 @@ impl Profile {
     }
 }
 
-/// A segment as it grows: its values may have boundaries between them, which count for its extent
-/// alone.
+/// Segment while it grows. The values of a segment may have boundaries between them, which count
+/// for its extent alone.
 #[derive(Clone, Copy, Debug)]
 struct Part {
     start: usize,

@@ -38,7 +38,7 @@ pub enum PoseGraphError {
     Information {
         /// The pose at which the edge begins.
         from: u32,
-        /// The pose it leads to.
+        /// The pose at which the edge ends.
         to: u32,
     },
 }

@@ -154,7 +154,8 @@ pub struct OnlineSlam {
     explored: Vec<Point>,
     /// Whether the robot touched something in the action in progress.
     has_touched: bool,
-    /// Number of times that it may forget them and go there again.
+    /// Number of times that the system may still forget the points in `explored` and go there
+    /// again.
     retries: u32,
 }
 
