@@ -1,4 +1,4 @@
-//! What path compression keeps, whatever the path.
+//! Properties of every compressed path.
 
 use proptest::prelude::*;
 use tolman_planners::compressed;

@@ -39,7 +39,7 @@ struct PlaceAtEnd {
 /// Observations of an ideal observer along a fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Looks {
-    /// The corridor's bends, and where it begins.
+    /// The observer sees the corridor's bends, and where the corridor begins.
     AtBends,
     /// The observer also sees the place ahead, and whether the one behind has ways to its sides.
     AtPlaces,

@@ -29,8 +29,8 @@ pub struct PlaceScorer {
 pub struct PlaceScore {
     /// Mean over the records that were asked about.
     pub mean: PointScore,
-    /// Whether the map is a mirror image of the field, like the paper's maps: records that lie
-    /// counter-clockwise around their middle are clockwise on the map.
+    /// Whether the map is a mirror image of the field, like the paper's maps. Records that lie
+    /// counter-clockwise around their middle are then clockwise on the map.
     pub mirrored: bool,
 }
 

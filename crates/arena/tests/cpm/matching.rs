@@ -1,4 +1,4 @@
-//! How well similarities tell a fragment seen again from all others.
+//! Tests how well similarities tell a fragment seen again from all others.
 
 use proptest::prelude::*;
 use rand::SeedableRng;

@@ -38,7 +38,7 @@ impl<'a> Clearings<'a> {
         self.grid
     }
 
-    /// Returns whether the robot can stand there.
+    /// Returns whether the robot can stand at this point.
     #[must_use]
     pub fn stands(&self, at: Point) -> bool {
         self.grid.stands(index_of(at), self.radius)

@@ -227,8 +227,8 @@ fn aside([low, high]: [Point; 2], at: Point) -> f64 {
     (at - at.sup(&low).inf(&high)).norm()
 }
 
-/// Returns the boxes in which the goal was sensed at these points: one for each of adjacent
-/// corridors.
+/// Returns boxes around the points where the goal was sensed. A goal as wide as several adjacent
+/// corridors gets one box for each corridor.
 fn goals(sensed: &[Point], width: f64) -> Vec<[Point; 2]> {
     let Some([low, high]) = bounds(sensed) else {
         return Vec::new();

@@ -25,9 +25,9 @@ pub struct SoinnConfig {
 /// Inserts a unit r every λ inputs ("within-class insertion", Shen and Hasegawa 2006, algorithm
 /// 3.1, step 10). Unit r lies half-way between the unit q of largest error and its neighbour f of
 /// largest error. Unit r gets a sixth of the errors, and a quarter of the wins and of the
-/// remembered radii. q and f keep ⅔ of their errors and ¾ of their wins. The insertion is undone if
-/// the mean error E / M has grown beyond the radius remembered from the previous insertion. For a
-/// unit without a previous insertion that radius is +∞.
+/// remembered radii. Units q and f keep ⅔ of their errors and ¾ of their wins. The insertion is
+/// undone if the mean error E / M has grown beyond the radius remembered from the previous
+/// insertion. For a unit without a previous insertion that radius is +∞.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]

@@ -105,7 +105,7 @@ impl OfflineSlam {
         }
     }
 
-    /// Returns the map; `None` before it has all its records.
+    /// Returns the map; `None` before the system has all its records.
     #[must_use]
     pub fn learned(&self) -> Option<&PlaceMap> {
         self.learned.as_ref().map(|learned| &learned.map)
