@@ -1,5 +1,5 @@
-//! `cargo xtask layers`: checks that the dependencies between the crates are those of
-//! docs/architecture.md, that every public name means one thing, and that configurations can grow.
+//! `cargo xtask layers`: checks three rules. The dependencies between the crates are those of
+//! docs/architecture.md. Every public name means one thing. Configurations can grow.
 //!
 //! [`rules::faults`] compares the page's tables with `cargo metadata`. [`names::faults`] compares
 //! the names of types with docs/glossary.md.

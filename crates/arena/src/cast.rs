@@ -27,7 +27,7 @@ pub enum Agent {
 }
 
 impl Agent {
-    /// All agents: the paper's in its order, then floor and ceilings.
+    /// All agents: those of the paper in its order, then the floor and the ceilings.
     pub const ALL: [Self; 5] = [
         Self::Avoid,
         Self::WallFollow,

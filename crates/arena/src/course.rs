@@ -92,7 +92,7 @@ pub enum CourseError {
         least: f64,
         /// Maximum width, m.
         most: f64,
-        /// Range of its sensors, m.
+        /// Range of the e-puck's sensors, m.
         reach: f64,
     },
     /// The world cannot be built.
@@ -115,7 +115,7 @@ pub struct Course {
     /// pass from the middle of one to that of the next. If you need corridors and junctions as
     /// cells, check [`is_free`](Self::is_free) first.
     pub maze: Maze,
-    /// Its walls and zones.
+    /// Walls and zones of the course.
     pub world: Arc<World>,
     /// Width of the corridors from wall to wall, m.
     pub corridor_width: f64,
@@ -204,7 +204,7 @@ impl Course {
         Ok(course)
     }
 
-    /// Returns whether it is a free world, in which walls stand anywhere.
+    /// Returns whether the course is a free world, in which walls stand anywhere.
     #[must_use]
     pub const fn is_free(&self) -> bool {
         self.free.is_some()

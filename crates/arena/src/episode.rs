@@ -39,9 +39,9 @@ pub struct Trial<'a> {
 /// A robot that is lifted in the middle of a run and put down elsewhere. Its brain is not told.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lifted {
-    /// Number of time steps after which it is lifted, at the end of the action under way.
+    /// Number of time steps after which the robot is lifted, at the end of the action in progress.
     pub after: u32,
-    /// Pose where it is put down.
+    /// Pose at which the robot is put down.
     pub to: Pose,
 }
 

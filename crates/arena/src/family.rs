@@ -14,15 +14,15 @@ use crate::BoxError;
 pub struct Family {
     /// Name as in `tolman maze generate NAME`.
     pub name: &'static str,
-    /// Common features of its drawings, in one line.
+    /// Common features of the family's drawings, in one line.
     pub about: &'static str,
-    /// Difficulty of its drawings for a system, in a few words.
+    /// Difficulty of the family's drawings for a system, in a few words.
     pub hard: &'static str,
     /// Kinds of places, beside dead ends, the start and the goal.
     pub places: &'static str,
-    /// Columns and rows of a small, a middle and a large one.
+    /// Columns and rows of a small, a middle and a large drawing.
     pub sizes: [(u16, u16); 3],
-    /// Draws one drawing from its columns, rows and seed.
+    /// Function that makes a drawing from its columns, rows and seed.
     pub draw: Draw,
 }
 

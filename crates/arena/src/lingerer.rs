@@ -14,10 +14,10 @@ pub(crate) struct Lingerer {
     explorer: BetterExplorer,
     wander: AvoidBrain,
     actions: u32,
-    /// Number of these actions until it had been everywhere.
+    /// Number of actions until the explorer had been everywhere; `None` before.
     explored: Option<u32>,
     times: u32,
-    /// Whether it wanders from the beginning.
+    /// Whether the robot wanders from the beginning.
     wanders: bool,
 }
 

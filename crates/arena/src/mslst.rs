@@ -26,7 +26,7 @@ use crate::run::{self, Ended, Limited};
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LearnError {
-    /// The robot cannot wander there.
+    /// The robot cannot wander on the course.
     #[error("the robot cannot wander on this course; change the course or the robot")]
     Wander(#[from] EpisodeError),
     /// No states can be learned from the robot's scans.
@@ -41,7 +41,7 @@ pub struct BetterLearned {
     pub map: Arc<BetterMap>,
     /// How learning ended.
     pub ended: Ended,
-    /// Number of actions until it had been everywhere.
+    /// Number of actions until the robot had been everywhere.
     pub actions: u32,
     /// True position of the robot when each place was made, by id, m.
     pub positions: Vec<Point>,

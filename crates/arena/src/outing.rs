@@ -99,7 +99,7 @@ pub trait Outing: InRun {
         Err("its robot is not lifted".into())
     }
 
-    /// Exchanges its system, with all that it has learned, for that of another outing.
+    /// Exchanges the outing's system, with all that it has learned, for that of another outing.
     ///
     /// # Errors
     /// If they are not of one kind, on robots of one kind.
@@ -149,11 +149,11 @@ pub trait Outing: InRun {
 /// Facts of a simulated robot, for drawings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotFacts {
-    /// Its name, as in the files of maps.
+    /// Name of the robot, as in the files of maps.
     pub name: &'static str,
     /// Outline of the robot.
     pub body: Body,
-    /// Its laser's beams.
+    /// Beams of the robot's laser; `None` without a laser.
     pub ring: Option<Ring>,
     /// Duration of a time step, µs.
     pub step_us: u64,
@@ -222,7 +222,7 @@ pub trait Depicted: Recordable {
     /// The robot's name, as in the files of maps.
     const NAME: &'static str;
 
-    /// Returns its laser's beams.
+    /// Returns the beams of the robot's laser; `None` without a laser.
     fn ring(&self) -> Option<Ring> {
         None
     }
@@ -287,7 +287,7 @@ pub struct Sent<R: Robot, S> {
     name: Option<&'static str>,
     /// True pose of the map's origin, if the map has positions of its places.
     world_from_map: Option<Pose>,
-    /// Time that actions took, while it was measured.
+    /// Duration of all actions so far, while times are measured.
     acting: Duration,
 }
 

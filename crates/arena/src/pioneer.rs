@@ -73,7 +73,7 @@ pub fn with_sensor_noise(robot: &LaserPioneerConfig, encoders: f64) -> LaserPion
 /// Default standard deviation of encoders in a step, as a share of it.
 pub const ENCODER_SD: f64 = 0.03;
 
-/// Returns its body: a disc one robot unit across.
+/// Returns the robot's body: a disc one robot unit across.
 #[must_use]
 pub const fn body() -> Body {
     Body::Circle {

@@ -16,7 +16,7 @@ pub struct Limited<R: Robot> {
     steps: u32,
     step_limit: u32,
     stopwatch: Option<Stopwatch>,
-    /// Time that the robot itself took, while times are measured.
+    /// Duration of the robot's own time steps so far, while times are measured.
     stepping: Duration,
 }
 
@@ -149,7 +149,7 @@ pub enum TaskEnd {
     Done,
     /// The system gave up.
     GaveUp {
-        /// Reason in its words.
+        /// Reason in the system's words.
         why: String,
     },
     /// The robot made as many time steps as it may.

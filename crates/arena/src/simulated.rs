@@ -88,7 +88,7 @@ impl<M: Model> Simulated<M> {
         self.solo.simulation_mut().set_door(name, state)
     }
 
-    /// Returns the world it is in.
+    /// Returns the world that the robot is in.
     #[must_use]
     pub fn world(&self) -> &World {
         self.solo.simulation().world()

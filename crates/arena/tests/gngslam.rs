@@ -16,7 +16,7 @@ use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig, Pioneer2dx, Pioneer2d
 use tolman_sim::{Solo, StepError};
 use tolman_systems::gngslam::{Wanderer, WandererConfig};
 
-/// What became of many legs.
+/// Results of many legs.
 #[derive(Debug)]
 struct Wandered {
     /// Share of the steps in which something was touched.

@@ -85,7 +85,7 @@ pub struct CorridorDetector {
     ring: Ring,
     /// Number of pairs of opposite beams in the ring.
     pairs: usize,
-    /// Sum of two ranges below which they count as two near walls, m.
+    /// Sum of two opposite ranges below which both walls count as near, m.
     near: f64,
     /// Number of near sums in a row that make a corridor.
     run: usize,

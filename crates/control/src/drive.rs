@@ -54,13 +54,13 @@ pub struct Drive<G> {
 /// One time step of an action, as it has just been made.
 #[derive(Debug)]
 pub struct Driven<'a, R> {
-    /// The action it belongs to.
+    /// The action to which the step belongs.
     pub action: Direction,
     /// Command of the robot.
     pub command: TurnTranslate,
     /// Outcome of the action if it ended with this step; `None` while it goes on.
     pub ends: Option<Outcome>,
-    /// The robot as it is now.
+    /// The robot after the step.
     pub robot: &'a R,
 }
 

@@ -29,8 +29,8 @@ pub struct Orient {
     /// Misalignment at which the robot stands square across the corridor, beams: a quarter circle.
     #[cfg_attr(feature = "serde", serde(deserialize_with = "crate::read::positive"))]
     pub square_beams: f64,
-    /// Width below which it is a corner, m. Paper: "noticeably less than the width"; here 0.95
-    /// widths, since in a corridor the least sum is the width to within half a percent.
+    /// Width below which a sum of ranges is a corner, m. Paper: "noticeably less than the width";
+    /// here 0.95 widths, since in a corridor the least sum is the width to within half a percent.
     #[cfg_attr(
         feature = "serde",
         serde(deserialize_with = "crate::read::at_least_zero")

@@ -30,7 +30,7 @@ pub struct StuckBeams {
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Beam {
-    /// Number of its recent contradictions with the beams beside it.
+    /// Number of recent contradictions between this beam and the beams beside it.
     doubts: u8,
     stuck: bool,
 }

@@ -70,7 +70,7 @@ impl Place {
 struct Trial {
     place: Place,
     ring: Ring,
-    /// What a full command turns in a time step, degrees.
+    /// Turn in a time step at full command, degrees.
     turn_deg: f64,
     start: Pose,
     action: Direction,

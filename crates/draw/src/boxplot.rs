@@ -46,7 +46,8 @@ pub struct PaperMark {
 /// One box and its dots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoxGroup {
-    /// The row it shows, written below the box and kept with the dots as `data-row`.
+    /// Row of the table that the box shows. It is written below the box and kept with the dots as
+    /// `data-row`.
     pub row: String,
     /// Series whose colour the box has.
     pub series: Series,
@@ -62,7 +63,7 @@ pub struct BoxGroup {
 /// The value axis begins at 0, or below the smallest value if that is negative.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoxPlot {
-    /// The table it shows, kept with the dots as `data-table`.
+    /// Table that the plot shows, kept with the dots as `data-table`.
     pub table: String,
     /// Quantity on the value axis.
     pub axis: String,

@@ -162,7 +162,7 @@ enum Layer {
 pub struct Line {
     /// Label for the legend; empty for none.
     pub label: String,
-    /// Series whose colour it is drawn in.
+    /// Series whose colour the line is drawn in.
     pub series: Series,
     /// The values, from left to right.
     pub points: Vec<LinePoint>,
@@ -184,7 +184,7 @@ impl Line {
 pub struct LinePoint {
     /// Position on the first axis.
     pub x: f64,
-    /// Value on the second axis, in its unit.
+    /// Value on the second axis, in the axis's unit.
     pub y: f64,
     /// Spread around the value: quartiles, a 95 % interval or extremes.
     pub spread: Option<ConfidenceInterval>,
@@ -218,7 +218,7 @@ struct Pinned {
 pub struct Points {
     /// Label for the legend; empty for none.
     pub label: String,
-    /// Series whose colour it is drawn in.
+    /// Series whose colour the points are drawn in.
     pub series: Series,
     /// Positions of the points, in the units of the axes.
     pub positions: Vec<Point>,

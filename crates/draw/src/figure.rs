@@ -47,14 +47,14 @@ pub struct Drawing {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Figure {
-    /// The name of its file without the extension, and the prefix of its ids: lower-case letters,
-    /// digits and hyphens.
+    /// Name of the figure's file without the extension, and prefix of its ids. It has lower-case
+    /// letters, digits and hyphens.
     pub name: String,
     /// Title, in a few words.
     pub title: String,
-    /// Explanation of the picture; empty if it is clear without.
+    /// Explanation of the picture; empty if the picture is clear without one.
     pub caption: String,
-    /// Table that it belongs to; `None` puts it after all tables.
+    /// Table to which the figure belongs; `None` puts the figure after all tables.
     pub table: Option<String>,
     /// Picture of the figure.
     pub drawing: Drawing,

@@ -33,7 +33,7 @@ use super::words;
 pub struct GraphPicture {
     /// The nodes, known by their index.
     pub nodes: Vec<GraphNode>,
-    /// Edges, by the indices of their nodes.
+    /// Edges, each by the indices of the nodes at its ends.
     pub edges: Vec<GraphEdge>,
     /// The radius of a node, user units.
     pub radius: f64,
@@ -46,13 +46,13 @@ pub struct GraphPicture {
 pub struct GraphNode {
     /// Position on the picture.
     pub position: Point,
-    /// Series whose colour it has.
+    /// Series whose colour the node is drawn in.
     pub series: Series,
     /// Shape of the node, which shows its class.
     pub mark: NodeMark,
-    /// Text beside it; empty for none.
+    /// Text beside the node; empty for none.
     pub label: String,
-    /// Text shown while the pointer rests on it; empty for none.
+    /// Text shown while the pointer rests on the node; empty for none.
     pub note: String,
 }
 
@@ -75,11 +75,11 @@ pub struct GraphEdge {
     pub from: usize,
     /// Index of the node at which the edge ends.
     pub to: usize,
-    /// Series whose colour it has.
+    /// Series whose colour the edge is drawn in.
     pub series: Series,
     /// Style of the line, which shows the edge's class.
     pub line: EdgeLine,
-    /// Text beside its middle; empty for none.
+    /// Text beside the middle of the edge; empty for none.
     pub label: String,
 }
 
@@ -402,7 +402,7 @@ impl GraphEdge {
         self
     }
 
-    /// Sets how it is drawn.
+    /// Sets the style of the edge's line.
     #[must_use]
     pub const fn line(mut self, line: EdgeLine) -> Self {
         self.line = line;

@@ -79,8 +79,8 @@ impl PlanKey {
     }
 }
 
-/// Returns the length of a scale bar in metres (1, 2 or 5 times a power of ten) and in user units;
-/// `None` if there is no room for a bar.
+/// Returns the length of a scale bar in metres and in user units; `None` if there is no room for a
+/// bar. The metres are 1, 2 or 5 times a power of ten.
 fn bar(scale: f64, width: f64) -> Option<(f64, f64)> {
     let longest = LONGEST * width / scale;
     if !longest.is_finite() || longest <= 0.0 {

@@ -6,7 +6,7 @@ use tolman_robot::{Ring, Scan};
 use super::number::{line, tenths, trimmed};
 use super::{Drawing, Series};
 
-/// Margin around the outer ring for its label, user units.
+/// Margin around the outer ring for the ring's label, user units.
 const MARGIN: f64 = 14.0;
 
 /// Scans in polar coordinates: the robot in the middle, bearing 0 upwards, bearings growing

@@ -26,7 +26,7 @@ use tolman_sim::Bounds;
 pub enum Region {
     /// A box with its middle at a pose, along the pose's heading.
     Box {
-        /// Pose of its middle.
+        /// Pose of the box's middle.
         pose: Pose,
         /// Extent along the heading, m.
         length: f64,
@@ -35,7 +35,7 @@ pub enum Region {
     },
     /// An ellipse with its middle at a pose, one axis along the pose's heading.
     Ellipse {
-        /// Pose of its middle.
+        /// Pose of the ellipse's middle.
         pose: Pose,
         /// Half the extent along the heading, m.
         along: f64,

@@ -8,7 +8,7 @@
 pub struct Series(pub u32);
 
 impl Series {
-    /// Number of colours before they repeat.
+    /// Number of different colours. Later series repeat them.
     pub const COLOURS: u32 = 7;
 
     /// Returns the CSS class that gives an element its colour.

@@ -21,7 +21,7 @@ use super::number::{NOTHING, extent, tenths};
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shade {
-    /// Quantity of the values, with its unit.
+    /// Name of the shown quantity, with its unit.
     pub title: String,
     /// Value that is drawn without colour.
     pub low: f64,

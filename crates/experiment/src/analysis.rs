@@ -32,7 +32,7 @@ pub struct TableAnalysis {
 pub struct MetricAnalysis {
     /// Metric that was analysed.
     pub metric: Metric,
-    /// The rows that have it, in the table's order.
+    /// The rows that have the metric, in the table's order.
     pub rows: Vec<Measured>,
 }
 

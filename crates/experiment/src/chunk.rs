@@ -141,7 +141,8 @@ mod tests {
     use super::*;
     use crate::{BoxError, Fields};
 
-    /// Runs of the same map share it; those of the row "alone" share nothing.
+    /// Procedure whose runs of the same map are in one chunk. Runs of the row "alone" share
+    /// nothing.
     #[derive(Debug)]
     struct Maps(u32);
 

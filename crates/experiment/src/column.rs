@@ -7,7 +7,7 @@ use super::Tolerance;
 pub struct Column {
     /// Name of the field in serde's output.
     pub field: String,
-    /// Type of its values.
+    /// Type of the field's values.
     pub kind: Kind,
     /// Whether every run has the field.
     pub presence: Presence,
@@ -180,9 +180,9 @@ pub enum Kind {
 /// Whether every run has a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Presence {
-    /// Every run has it.
+    /// Every run has the field.
     Always,
-    /// Some runs have it.
+    /// Some runs have the field.
     Sometimes,
 }
 

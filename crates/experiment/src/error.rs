@@ -38,7 +38,7 @@ pub enum Error {
     FixedRuns {
         /// Name of the table.
         table: String,
-        /// Maximum number of runs of its rows.
+        /// Fixed number of runs of each row.
         own: u32,
     },
     /// A table that the options name would have no runs.

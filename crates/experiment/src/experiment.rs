@@ -60,7 +60,7 @@ pub struct Experiment {
     pub config: toml::Table,
     /// Parts left out because data is missing, and how to get it; `None` if everything is here.
     pub skipped: Option<String>,
-    /// Procedure that plays its runs.
+    /// Procedure that plays the experiment's runs.
     pub procedure: Box<dyn Procedure>,
     /// Whether only some tables are filled.
     in_part: bool,

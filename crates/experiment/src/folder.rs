@@ -25,7 +25,7 @@ pub(super) const REPLAYS: &str = "replays";
 #[derive(Debug)]
 pub(super) struct Folder {
     path: PathBuf,
-    /// Kept only for its lock.
+    /// Lock file. It is kept open because closing it would release the lock.
     _lock: File,
 }
 

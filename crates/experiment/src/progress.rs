@@ -11,7 +11,7 @@ pub enum ProgressEvent<'a> {
     SetAside {
         /// Path of the folder of results.
         folder: &'a Path,
-        /// Path of the folder that its contents were moved to.
+        /// Path of the folder to which the old results were moved.
         moved_to: &'a Path,
         /// The difference, in words.
         reason: &'a str,
@@ -24,12 +24,12 @@ pub enum ProgressEvent<'a> {
         line: u64,
         /// The fault, in words.
         what: &'a str,
-        /// Consequence for its run.
+        /// Consequence for the run on that line.
         remedy: Remedy,
     },
     /// The experiment leaves something out.
     Skipped {
-        /// The missing data, and how to get it.
+        /// The missing data, and how to get them.
         what: &'a str,
     },
     /// The runs begin.

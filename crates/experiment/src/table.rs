@@ -228,15 +228,15 @@ pub struct Row {
     pub name: String,
     /// Values from the paper, at most one for each metric.
     pub paper: Vec<PaperValue>,
-    /// Fixed number of its runs, for deterministic rows: one for each case. `None` leaves it to the
-    /// caller.
+    /// Fixed number of the row's runs, for deterministic rows: one for each case. `None` leaves it
+    /// to the caller.
     pub runs: Option<u32>,
-    /// Whether the caller cannot change the number of its runs.
+    /// Whether the caller cannot change the number of the row's runs.
     pub(super) is_fixed: bool,
-    /// Number of runs of the paper's row; `None` if it is the table's.
+    /// Number of runs of the paper's row; `None` if the table's number holds.
     pub paper_runs: Option<u32>,
-    /// Whether it is our own system, which may be better than the paper's. Other rows reproduce the
-    /// paper.
+    /// Whether the row shows our own system, which may be better than the paper's. Other rows
+    /// reproduce the paper.
     pub own: bool,
     /// Missing files that its runs need, and where to get them; `None` if all are here.
     pub missing: Option<String>,
@@ -372,7 +372,7 @@ pub struct PaperValue {
     pub value: f64,
     /// Standard deviation, in the metric's unit; `None` if the paper gives none.
     pub sd: Option<f64>,
-    /// Reason why our value is not compared with it; `None` if it is compared.
+    /// Reason why our value is not compared with the paper's; `None` if the two are compared.
     pub aside: Option<String>,
 }
 
@@ -383,11 +383,11 @@ pub struct Metric {
     pub name: String,
     /// Title of the metric on a page, such as `success`; empty to take the column's.
     pub title: String,
-    /// Unit of its values, shown after the title; empty if there is none.
+    /// Unit of the metric's values, shown after the title; empty if there is none.
     pub unit: String,
     /// Statistic by which the runs are summarized.
     pub statistic: Statistic,
-    /// Direction in which its values are better; `None` to take the column's.
+    /// Direction in which the metric's values are better; `None` to take the column's.
     pub better: Option<Better>,
     /// Definition of the metric, in a sentence.
     pub definition: String,
@@ -709,7 +709,7 @@ impl Statistic {
 pub struct Tolerance {
     /// Maximum difference between our value and the paper's.
     pub within: Within,
-    /// Reason for its size, a sentence without full stop.
+    /// Reason for the tolerance's size, a sentence without full stop.
     pub reason: &'static str,
 }
 

@@ -54,7 +54,7 @@ pub enum Doubt {
     OneRun,
     /// The event that the metric waits for did not happen.
     NotReached,
-    /// Files that its runs need are missing: their names, and their source.
+    /// Files that the runs need are missing: their names, and where to get them.
     NoData(String),
     /// No run was made.
     NoRuns,

@@ -43,7 +43,7 @@ pub struct Film {
 /// Knowledge of a system at one moment, in the world's frame.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Glimpse {
-    /// Positions of the places of its map, m.
+    /// Positions of the places of the system's map, m.
     pub places: Vec<Point>,
     /// Ends of the ways between the places, m; each way is listed once.
     pub ways: Vec<[Point; 2]>,

@@ -1,6 +1,6 @@
 //! Pose graphs in the plane as g2o, GTSAM, Cartographer's and slam_toolbox's tools write them. The
-//! lines are `VERTEX_SE2 id x y θ`, `EDGE_SE2 from to x y θ` with the upper triangle of the
-//! information matrix, row by row, and `FIX id`.
+//! lines are `VERTEX_SE2 id x y θ`, `EDGE_SE2 from to x y θ …` and `FIX id`. An edge ends with the
+//! upper triangle of its information matrix, row by row.
 //!
 //! Source: R. Kümmerle, G. Grisetti, H. Strasdat, K. Konolige, W. Burgard: g2o: A General Framework
 //! for Graph Optimization, 2011, and

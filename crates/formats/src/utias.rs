@@ -24,7 +24,7 @@ use crate::log::{self, LogError, LogReport, LogVelocity};
 pub struct UtiasRobot {
     /// Speeds of the robot by its wheels.
     pub odometry: Vec<LogVelocity>,
-    /// Barcodes that its camera recognized.
+    /// Barcodes that the robot's camera recognized.
     pub sightings: Vec<BarcodeSighting>,
     /// True trajectory, by cameras on the ceiling.
     pub truth: Trajectory,
@@ -39,7 +39,7 @@ pub struct UtiasRobot {
 pub struct BarcodeSighting {
     /// Time of the sighting, s.
     pub time: f64,
-    /// Number of the robot or landmark that wears it.
+    /// Number of the robot or landmark that wears the barcode.
     pub subject: u32,
     /// Distance of the subject, m.
     pub range: f64,

@@ -5,8 +5,8 @@
 //! "relative to the previous point", features in place of pixels, and a map that corrects the
 //! odometry. In the order data flows:
 //!
-//! 1. An [`Outline`] holds the things round the robot in a snapshot: points where they stand on the
-//!    floor, with their colours, and arcs on which sonars heard them.
+//! 1. An [`Outline`] holds the things round the robot in a snapshot. Points mark where things stand
+//!    on the floor, with their colours. Arcs mark where sonars heard things.
 //! 2. [`WheelError`] is the map's estimate of the wheels' errors, by which it predicts the robot's
 //!    pose.
 //! 3. The prediction is fitted to the map: the surfaces that all places have seen.

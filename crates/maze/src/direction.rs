@@ -28,7 +28,7 @@ impl Direction {
     /// All four, clockwise from north.
     pub const ALL: [Self; 4] = [Self::North, Self::East, Self::South, Self::West];
 
-    /// Returns 0 for north, then counts clockwise.
+    /// Returns the direction's index: 0 for north, then clockwise to 3 for west.
     #[must_use]
     pub const fn index(self) -> usize {
         self as usize

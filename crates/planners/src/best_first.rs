@@ -11,7 +11,7 @@ use crate::path::trace_back;
 pub struct Found {
     /// Nodes from the source to a goal, both ends included.
     pub path: Vec<u32>,
-    /// The sum of arc costs along it.
+    /// The sum of the arc costs along the path.
     pub cost: u32,
     /// Number of nodes whose arcs were listed.
     pub expanded: u32,

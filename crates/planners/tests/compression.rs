@@ -1,4 +1,4 @@
-//! What path compression keeps, whatever the path.
+//! Properties of every compressed path.
 
 use proptest::prelude::*;
 use tolman_planners::compressed;
@@ -40,8 +40,8 @@ proptest! {
         prop_assert!(short.windows(2).all(|pair| pair[1] != opposite(&pair[0])));
     }
 
-    /// A run of an action that is one longer than the run of its opposite moves the end by one
-    /// step, and costs five actions or more. Nothing else moves the end.
+    /// Two opposite runs of an action may differ by one in length. Then their removal moves the end
+    /// by one step, and the two runs have five actions or more. Nothing else moves the end.
     #[test]
     fn the_end_moves_by_no_more_than_the_rule_allows(path in path()) {
         let short = compressed(&path, opposite);

@@ -1,4 +1,4 @@
-//! Explorers of steps on mazes that are seen as far as the next wall: what they prove is true, and
+//! Explorers of steps on mazes that are seen as far as the next wall. What they prove is true, and
 //! the way on which they prove it is pinned.
 #![cfg(feature = "alloc")]
 #![expect(

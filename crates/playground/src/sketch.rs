@@ -37,9 +37,9 @@ pub struct SketchWall {
     pub cell: [u16; 2],
     /// Side of that cell on which the edge is.
     pub side: Direction,
-    /// Whether a wall stands there.
+    /// Whether the wall stands.
     pub stands: bool,
-    /// Whether it is a part of the border, which always stands.
+    /// Whether the wall is a part of the border, which always stands.
     pub is_border: bool,
 }
 
@@ -117,7 +117,7 @@ impl Sketch {
         }
     }
 
-    /// Returns its name: that of the file or the family, or `own`.
+    /// Returns the name of the maze: that of its file or family, or `own`.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name

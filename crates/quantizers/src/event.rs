@@ -13,7 +13,7 @@ pub enum Event {
     Inserted {
         /// Id of the inserted unit.
         id: UnitId,
-        /// Units between which it was inserted; `None` for a unit made of an input.
+        /// Units between which the unit was inserted; `None` for a unit made of an input.
         between: Option<(UnitId, UnitId)>,
     },
     /// A unit was removed. Its edges were removed just before.

@@ -64,9 +64,9 @@ pub struct Soinn<S: Scalar> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Tally {
-    /// E: sum of the distances (not squared) of the inputs it won.
+    /// E: sum of the distances (not squared) of the inputs that the unit won.
     pub error: f64,
-    /// M: number of the inputs it won, a fraction after an insertion.
+    /// M: number of inputs that the unit won, a fraction after an insertion.
     pub wins: f64,
     /// Step at which the unit was made. A unit inserted between two others has the step of the
     /// older one.
@@ -91,7 +91,7 @@ impl Tally {
         self.error / self.wins
     }
 
-    /// Returns whether its mean error exceeds the remembered radius.
+    /// Returns whether the unit's mean error exceeds the remembered radius.
     fn has_grown(&self) -> bool {
         self.radius.is_some_and(|radius| self.mean_error() > radius)
     }

@@ -84,7 +84,7 @@ pub enum EncodeError {
     Grid {
         /// Name of the field.
         field: String,
-        /// Number of its columns.
+        /// Number of the field's columns.
         columns: u32,
         /// Side of a cell, m.
         pitch: f64,

@@ -15,7 +15,7 @@ use super::{
 /// Something that happens in a replay at a step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReplayEvent<'a> {
-    /// Step at which it happens.
+    /// Step at which the event happens.
     pub step: u32,
     /// Subject, as a path: `/scene`, `/ROBOT/map/NAME`.
     pub topic: String,
@@ -36,7 +36,7 @@ pub enum EventContent<'a> {
     },
     /// A thing is drawn. It replaces the thing with the same id on this topic.
     Draw {
-        /// Frame of its coordinates: [`WORLD`], or that of a robot.
+        /// Frame in which the drawing's coordinates are given: [`WORLD`], or that of a robot.
         frame: String,
         /// Id, unique on its topic.
         id: String,
@@ -45,7 +45,7 @@ pub enum EventContent<'a> {
     },
     /// The thing with this id on this topic disappears.
     Erase {
-        /// Frame in which it was drawn.
+        /// Frame in which the thing was drawn.
         frame: String,
         /// Id of the thing on its topic.
         id: String,

@@ -18,8 +18,9 @@ pub struct Floor<'a> {
 }
 
 impl<'a> Floor<'a> {
-    /// Returns the cells that can be reached from `start`; `None` for a world that was not made
-    /// from a maze, or a start outside of it. Doors do not count as walls. O(cells) rays.
+    /// Returns the cells that can be reached from `start`. Returns `None` if the world was not made
+    /// from a maze, or `start` lies outside of the maze. Doors do not count as walls. O(cells)
+    /// rays.
     pub fn from(world: &'a World, start: Point) -> Option<Self> {
         let (grid, first) = (world.grid()?, world.cell_at(start)?);
         let mut floor = Self {

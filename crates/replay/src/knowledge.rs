@@ -34,23 +34,23 @@ pub struct MapGrowth {
 /// A node of a [`MapGrowth`]: a state, a place, a unit of a quantizer or a cell.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapNode {
-    /// Id by which edges and beliefs name it.
+    /// Id by which edges and beliefs name the node.
     pub id: u32,
     /// First position, in the world's frame, m.
     pub position: Point,
-    /// Step at which it appears.
+    /// Step at which the node appears.
     pub born: u32,
-    /// Step at which it disappears; `None` if it stays.
+    /// Step at which the node disappears; `None` if it stays.
     pub died: Option<u32>,
     /// Label beside the node, a word or two; empty for none.
     pub label: String,
-    /// Facts shown when it is clicked.
+    /// Facts shown when the node is clicked.
     pub facts: Vec<Fact>,
-    /// Steps at which the robot visited it, ascending.
+    /// Steps at which the robot visited the node, ascending.
     pub visits: Vec<u32>,
     /// Later positions, ascending by step.
     pub moves: Vec<NodeMove>,
-    /// Scan that it stands for.
+    /// Scan that the node stands for.
     pub exemplar: Option<Exemplar>,
 }
 
@@ -109,15 +109,15 @@ pub struct Exemplar {
 /// An edge of a [`MapGrowth`].
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MapEdge {
-    /// Id of the node that it comes from.
+    /// Id of the node at which the edge begins.
     pub a: u32,
-    /// Id of the node that it leads to.
+    /// Id of the node at which the edge ends.
     pub b: u32,
     /// Meaning of the edge, which decides its style.
     pub kind: EdgeKind,
-    /// Step at which it appears.
+    /// Step at which the edge appears.
     pub born: u32,
-    /// Step at which it disappears; `None` if it stays.
+    /// Step at which the edge disappears; `None` if it stays.
     pub died: Option<u32>,
     /// Label, a word or two, shown when one of the nodes is clicked; empty for none.
     pub label: String,

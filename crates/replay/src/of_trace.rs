@@ -20,7 +20,7 @@ use super::{DoorChange, Fact, Mark, Marks, Replay, RobotTrack, Scenery, SceneryD
 
 /// A kind of robot that replays can show. It adds the sensor and the commands to the body.
 pub trait Portrait: Recordable {
-    /// Returns its range sensor, or `None` if it has none.
+    /// Returns the robot's range sensor, or `None` if the robot has none.
     fn ring(config: &Self::Config) -> Option<Ring>;
 
     /// Returns the named parts of a command, as shares of their full rates.
@@ -112,7 +112,7 @@ pub enum CompareError {
     Worlds {
         /// Name of the first trace.
         first: String,
-        /// Name of the trace that differs from it.
+        /// Name of the trace that differs from the first.
         second: String,
     },
     /// The time steps have different lengths.
@@ -124,7 +124,7 @@ pub enum CompareError {
         first: String,
         /// Time step of the first trace, µs.
         first_us: u64,
-        /// Name of the trace that differs from it.
+        /// Name of the trace that differs from the first.
         second: String,
         /// Time step of the second trace, µs.
         second_us: u64,

@@ -8,12 +8,12 @@ use tolman_geom::Point;
 pub enum Body {
     /// A disc round the robot's origin.
     Circle {
-        /// Its radius, m.
+        /// Radius of the disc, m.
         radius: f64,
     },
     /// A convex outline.
     Polygon {
-        /// Its corners in counter-clockwise order, m.
+        /// Corners of the polygon in counter-clockwise order, m.
         corners: Vec<Point>,
     },
 }

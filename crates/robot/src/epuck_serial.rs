@@ -289,7 +289,7 @@ pub enum SerialError {
     Speeds {
         /// Commanded speed, left and right, encoder steps a second.
         told: [i32; 2],
-        /// Speed that it reports, left and right, encoder steps a second.
+        /// Speed that the robot reports, left and right, encoder steps a second.
         set: [i32; 2],
     },
     /// A speed is not a number.

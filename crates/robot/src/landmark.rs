@@ -15,7 +15,7 @@ pub enum Landmark {
 /// A robot that recognizes the landmark it stands at. A goal is a landmark, so every system that
 /// can sense it can be sent to it.
 pub trait SensesLandmarks: Robot {
-    /// Returns the landmark the robot stands at now, or `None` if there is none.
+    /// Returns the landmark at which the robot stands now, or `None` if there is none.
     fn landmark(&self) -> Option<Landmark>;
 }
 

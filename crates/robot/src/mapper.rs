@@ -107,11 +107,11 @@ pub struct MapView {
 /// A place of a learned map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapPlace {
-    /// The name by which links and beliefs call it.
+    /// Id by which links and beliefs name the place.
     pub id: u32,
     /// Position, m, in the map's own frame; `None` if the map does not know it.
     pub position: Option<Point>,
-    /// The landmark that stands there.
+    /// The landmark of the place; `None` without one.
     pub landmark: Option<Landmark>,
 }
 

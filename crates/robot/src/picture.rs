@@ -14,7 +14,7 @@ pub struct Picture {
     pub width: u32,
     /// Number of pixels down.
     pub height: u32,
-    /// The camera that took it.
+    /// The camera that took the picture.
     pub camera: PinholeCamera,
     /// Red, green and blue of each pixel, row by row from the top, each from the left; `width` ×
     /// `height` of them.

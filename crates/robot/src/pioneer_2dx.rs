@@ -87,7 +87,7 @@ pub fn sonar_mounts() -> [Pose; SONARS] {
     })
 }
 
-/// Returns its outline: [`LENGTH`] by [`WIDTH`] round the middle of the wheels' axle.
+/// Returns the robot's outline: [`LENGTH`] by [`WIDTH`] round the middle of the wheels' axle.
 #[must_use]
 pub fn body() -> Body {
     let (front, back, side) = (FRONT, FRONT - LENGTH, 0.5 * WIDTH);

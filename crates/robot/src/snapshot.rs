@@ -6,9 +6,9 @@ use crate::{LaserSensing, Picture, Sounding, Soundings};
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Snapshot {
-    /// Readings of its range sensors.
+    /// Readings of the robot's range sensors.
     pub soundings: Vec<Sounding>,
-    /// Picture of its camera; `None` for a robot without one.
+    /// Picture of the robot's camera; `None` for a robot without one.
     pub picture: Option<Picture>,
 }
 

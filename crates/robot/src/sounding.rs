@@ -9,9 +9,10 @@ use crate::LaserSensing;
 pub struct Sounding {
     /// Position and direction of the sensor, in the robot's frame.
     pub mount: Pose,
-    /// Half-width of its cone, rad; 0 for a beam.
+    /// Half-width of the sensor's cone, rad; 0 for a beam.
     pub half_width: f64,
-    /// Distance of the nearest thing within its cone, m; `max_range` if it met nothing.
+    /// Distance of the nearest thing within the sensor's cone, m; `max_range` if the sensor met
+    /// nothing.
     pub range: f64,
     /// Maximum reading, m.
     pub max_range: f64,

@@ -25,8 +25,8 @@ pub trait System<R: Robot>: Mapper {
         Standing::gave_up("it follows its robot, and cannot find out where it is put down")
     }
 
-    /// Returns its situation in a few words for a viewer, such as `lost`; empty if there is nothing
-    /// to say.
+    /// Returns the system's situation in a few words for a viewer, such as `lost`; empty if there
+    /// is nothing to say.
     fn words(&self) -> String {
         String::new()
     }

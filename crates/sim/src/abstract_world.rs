@@ -230,7 +230,7 @@ pub struct AbstractRobot {
     chance: Chance,
     scale: f64,
     at: u32,
-    /// Position in the place at which it stopped.
+    /// Displacement of the robot from the point of its place where it stopped, m.
     stop: Vector,
     moves: u64,
 }
@@ -246,7 +246,7 @@ pub struct AbstractMove {
     pub to: u32,
     /// True displacement of the robot, m.
     pub truth: Vector,
-    /// Displacement by odometry, m, along the axes of its compass.
+    /// Displacement by odometry, m, along the axes of the robot's compass.
     pub measured: Vector,
     /// Bounds of the move by its measurement, without the shared scale and outliers: the
     /// displacement along the true axes, m, and the heading.
@@ -289,7 +289,7 @@ impl AbstractRobot {
         &self.world
     }
 
-    /// Returns the place it is at.
+    /// Returns the number of the place where the robot is.
     #[must_use]
     pub const fn at(&self) -> u32 {
         self.at

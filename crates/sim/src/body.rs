@@ -26,9 +26,9 @@ pub enum BodyError {
     NotConvex {
         /// Number of the corner, from 0.
         index: usize,
-        /// Its x, m.
+        /// x of the corner, m.
         x: f64,
-        /// Its y, m.
+        /// y of the corner, m.
         y: f64,
     },
 }

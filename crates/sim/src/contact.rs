@@ -14,9 +14,9 @@ use crate::{Motion, WallSegment, World};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Contact {
-    /// Stops where it touched. A disc still turns.
+    /// The robot stops where it touched something. A disc still turns.
     Stop,
-    /// Slides along what it touched for the rest of its path.
+    /// The robot slides along what it touched for the rest of its path.
     Slide,
 }
 

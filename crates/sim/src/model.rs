@@ -30,7 +30,7 @@ pub trait Model {
     /// Readings after a time step.
     type Sensing: core::fmt::Debug;
 
-    /// Returns its outline.
+    /// Returns the robot's outline.
     fn body(&self) -> &Body;
 
     /// Returns the rule for contacts: how the body moves on when it meets something.

@@ -43,7 +43,7 @@ pub use sonars::{CrossTalk, Misses, SonarConfig, SonarError, Sonars};
 
 /// A sensor, which reads a value from the surroundings of a robot.
 pub trait Sensor {
-    /// Type of its readings.
+    /// Type of the sensor's readings.
     type Reading;
 
     /// Takes a reading. Returns `None` if the sensor gives nothing this time. The old contents of

@@ -297,7 +297,7 @@ impl<M: Model> Simulation<M> {
         (0..self.robots.len() as u32).map(RobotId)
     }
 
-    /// Returns the world they are in.
+    /// Returns the world that the robots are in.
     #[must_use]
     pub fn world(&self) -> &Arc<World> {
         &self.world

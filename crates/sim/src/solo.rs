@@ -77,14 +77,14 @@ impl<M: Model> Solo<M> {
         self.simulation.place(self.robot, pose)
     }
 
-    /// Returns the simulation it runs in.
+    /// Returns the simulation that the robot runs in.
     #[must_use]
     pub fn simulation(&self) -> &Simulation<M> {
         &self.simulation
     }
 
-    /// Returns the simulation it runs in, to open a door or lift the robot. It must stay alone in
-    /// it.
+    /// Returns the simulation that the robot runs in, to open a door or lift the robot. It must
+    /// stay alone in it.
     pub fn simulation_mut(&mut self) -> &mut Simulation<M> {
         &mut self.simulation
     }

@@ -25,7 +25,7 @@ pub struct Ray {
 /// Answer to a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Echo {
-    /// Distance, m; the ray's whole length if it meets nothing.
+    /// Distance of what the ray meets, m; the ray's whole length if it meets nothing.
     pub range: f64,
     /// Material; robots are of the default material.
     pub material: Material,

@@ -55,12 +55,12 @@ use crate::Model;
 pub trait Recordable:
     Model<Command: Serialize + DeserializeOwned, Sensing: Clone + Serialize + DeserializeOwned>
 {
-    /// Everything needed to build one.
+    /// Configuration: everything needed to build a robot of this kind.
     type Config: Clone + Debug + Serialize + DeserializeOwned;
-    /// Reason why one cannot be built.
+    /// Reason why a robot of this kind cannot be built.
     type ConfigError: Error + Send + Sync + 'static;
 
-    /// Returns its configuration.
+    /// Returns the robot's configuration.
     fn config(&self) -> &Self::Config;
 
     /// Builds the model.

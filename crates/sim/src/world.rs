@@ -87,7 +87,7 @@ pub struct World {
     index: Arc<WallIndex>,
     caster: Arc<dyn Caster>,
     cells: Option<Cells>,
-    /// Material of all walls, if it is the same.
+    /// Material that all walls share; `None` if they differ.
     common_material: Option<Material>,
 }
 

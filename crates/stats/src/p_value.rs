@@ -40,7 +40,7 @@ impl PValue {
         libm::exp(self.ln)
     }
 
-    /// Returns its natural logarithm.
+    /// Returns the natural logarithm of the p-value.
     pub const fn ln(self) -> f64 {
         self.ln
     }

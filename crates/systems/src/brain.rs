@@ -25,8 +25,8 @@ pub trait Brain: Mapper + Debug {
         }
     }
 
-    /// Returns whether its layers see scans [straightened](tolman_control::straightened), for
-    /// lasers that err. By default they see raw scans.
+    /// Returns whether the brain's layers see scans [straightened](tolman_control::straightened),
+    /// for lasers that err. By default they see raw scans.
     fn sees_straight(&self) -> bool {
         false
     }

@@ -112,7 +112,7 @@ impl Digger {
         self.sensing.compass = Some(heading);
     }
 
-    /// Returns whether its body would overlap a block.
+    /// Returns whether the digger's body would overlap a block.
     fn collides(&self, position: Point) -> bool {
         self.rock.iter().any(|rock| {
             let apart = (position - rock).map(|along| (along.abs() - 0.5 * WIDTH).max(0.0));

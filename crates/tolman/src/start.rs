@@ -14,7 +14,7 @@ pub enum Start {
     Random,
     /// The middle of the cell that the maze marks.
     Marked,
-    /// This pose, in metres and radians.
+    /// Start at this pose, in metres and radians.
     At(Pose),
 }
 

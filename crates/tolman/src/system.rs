@@ -145,7 +145,7 @@ pub struct Setup<'a> {
     pub seed: u64,
     /// Start of the robot; `None` for the system's default.
     pub start: Option<Start>,
-    /// Number of time steps after which it has failed; `None` for the system's default.
+    /// Number of time steps after which the task has failed; `None` for the system's default.
     pub steps: Option<u32>,
     /// Name of one of the system's robots; `None` for the first.
     pub robot: Option<&'a str>,

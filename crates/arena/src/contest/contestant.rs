@@ -66,7 +66,7 @@ pub enum Contestant {
 /// The robot that a contestant drives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ContestRobot {
-    /// The robot of its paper.
+    /// The robot of the contestant's paper.
     Own,
     /// The laser Pioneer with compass and encoders.
     Pioneer,
@@ -163,7 +163,7 @@ impl Contestant {
         all.find(|contestant| slug(contestant.name()) == slug(name))
     }
 
-    /// Returns whether it learns a map. Only the baselines do not.
+    /// Returns whether the contestant learns a map. Only the baselines do not.
     #[must_use]
     pub const fn learns(self) -> bool {
         !matches!(self, Self::Baseline(_))
@@ -180,7 +180,7 @@ impl Contestant {
         }
     }
 
-    /// Returns whether its robot knows where north is.
+    /// Returns whether the contestant's robot knows where north is.
     pub(super) const fn has_compass(self, robot: ContestRobot) -> bool {
         !matches!(
             (self, robot),
@@ -200,7 +200,7 @@ impl Contestant {
         }
     }
 
-    /// Returns whether its robot sees the colours of walls.
+    /// Returns whether the contestant's robot sees the colours of walls.
     pub(super) const fn sees_colours(self, robot: ContestRobot) -> bool {
         matches!(
             (self, robot),

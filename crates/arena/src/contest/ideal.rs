@@ -18,11 +18,11 @@ use crate::cpm::landmark_at;
 #[derive(Clone, Debug)]
 pub(super) struct IdealObserver<'a> {
     pub(super) maze: Cow<'a, Maze>,
-    /// Whether it knows where north is.
+    /// Whether the observer knows where north is.
     pub(super) has_compass: bool,
-    /// Number of cells it sees through an opening.
+    /// Number of cells that the observer sees through an opening.
     pub(super) reach: u32,
-    /// Colours of the walls; empty if it sees none.
+    /// Colours of the walls; empty if the observer sees no colours.
     pub(super) paint: Paint,
 }
 

@@ -10,8 +10,8 @@ use super::whereabouts::{PlaceVisit, Squares, offset};
 /// Quality of a learned map, compared with the truth. Shares are from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapJudgement {
-    /// Whether it is right of what was visited, and has at least [`ENOUGH`](Self::ENOUGH) of all
-    /// places and ways.
+    /// Whether the map is right as far as the robot has been, and has at least
+    /// [`ENOUGH`](Self::ENOUGH) of all places and ways.
     pub is_right: bool,
     /// Whether the map is right as far as the robot has been. Its places are then different true
     /// places, its links are different true ways, and it has all ways that were driven.
@@ -153,7 +153,7 @@ struct Chain {
     over: Vec<u32>,
 }
 
-/// A map with the cells that its places stand for.
+/// Links of a learned map, with the true cells that its places stand for.
 struct Chart<'a> {
     stands_for: &'a BTreeMap<u32, Cell>,
     truth: &'a TrueGraph,
@@ -204,7 +204,7 @@ impl<'a> Chart<'a> {
         self.links.get(&place).map_or(0, Vec::len)
     }
 
-    /// Returns whether it stands for a cell inside a way, and is part of a chain.
+    /// Returns whether a place stands for a cell inside a way, and is part of a chain.
     fn is_amid(&self, place: u32) -> bool {
         !self.is_true_place(place) && self.cell(place).is_some() && self.degree(place) == 2
     }

@@ -89,13 +89,13 @@ pub enum Moment {
 /// Result of a contest.
 #[derive(Clone, Debug, Default)]
 pub struct ContestRecord {
-    /// Reason why the contestant abstained and did not drive; `None` if it drove.
+    /// Reason why the contestant abstained; `None` if it drove.
     pub abstained: Option<String>,
     /// Result of learning; `None` if the contestant abstained, or learns no map.
     pub learned: Option<LearnRecord>,
-    /// Result of localizing from each place where it was put down.
+    /// Results of localizing, one for each place where the robot was put down.
     pub found: Vec<Located>,
-    /// Result of driving to the goal from each place where it was put down.
+    /// Results of driving to the goal, one for each place where the robot was put down.
     pub homes: Vec<Home>,
 }
 
@@ -106,19 +106,20 @@ pub struct LearnRecord {
     pub end: TaskEnd,
     /// The system's verdict on its own map.
     pub claim: Claim,
-    /// Probability that its map is right, by its own estimate, 0 … 1; `None` if it has none.
+    /// Probability that the system's map is right, by its own estimate, 0 … 1; `None` if the system
+    /// gives no estimate.
     pub certainty: Option<f64>,
-    /// Quality of its map, compared with the truth.
+    /// Quality of the system's map, compared with the truth.
     pub judgement: MapJudgement,
     /// Driven distance over the length of all corridors.
     pub driven: f64,
     /// Number of time steps.
     pub steps: u32,
-    /// Number of time steps in which it touched something.
+    /// Number of time steps in which the robot touched something.
     pub bumps: u32,
-    /// Number of places on its map.
+    /// Number of places on the system's map.
     pub places: usize,
-    /// Size of its map, bytes; `None` if unknown.
+    /// Size of the system's map, bytes; `None` if unknown.
     pub map_bytes: Option<usize>,
     /// Computing time without the simulator; `None` if it was not measured.
     pub thinking: Option<Duration>,
@@ -219,7 +220,7 @@ pub struct Home {
     /// Driven distance over that of the shortest way; `None` if it did not arrive within
     /// [`Contest::LIMIT`] times that length.
     pub over_shortest: Option<f64>,
-    /// Number of time steps in which it touched something.
+    /// Number of time steps in which the robot touched something.
     pub bumps: u32,
     /// Reason why the system gave up before it arrived; empty if it did not give up.
     pub gave_up: String,
@@ -444,20 +445,20 @@ fn position(len: usize, rng: &mut impl Rng) -> usize {
 /// A contest in progress.
 pub(super) struct Bout {
     pub(super) maze: Maze,
-    /// The drawing as it is after the robot has learned; `None` if it does not change.
+    /// The drawing after the robot has learned; `None` if the world stays the same.
     afterwards: Option<Maze>,
     truth: TrueGraph,
     observer: IdealObserver<'static>,
     claims: bool,
     pub(super) squares: Squares,
     pub(super) outing: Box<dyn Outing>,
-    /// Whether it was lifted, and has made no step since.
+    /// Whether the robot was lifted, and has made no step since.
     is_lifted: bool,
-    /// Index of the task's first time step.
+    /// Cell that each place of the map stands for, by the place's id.
     stands_for: BTreeMap<u32, Cell>,
 }
 
-/// Number of time steps before the task in which the robot touched something.
+/// A task in progress.
 pub(super) struct Pursuit {
     task: Task,
     /// Distance driven after which the task ends, m.
@@ -465,18 +466,19 @@ pub(super) struct Pursuit {
     /// Distance driven, m, after which the robot is put elsewhere without being told, and the pose
     /// there.
     kidnapping: Option<(f64, Pose)>,
-    /// The first time step of it.
+    /// Index of the task's first pose in the robot's path.
     from: usize,
-    /// Number of time steps until then in which the robot touched something.
+    /// Number of time steps before the task in which the robot touched something.
     bumped: usize,
     /// Distance driven so far, m.
     driven: f64,
     /// The last time step that was counted.
     until: usize,
-    /// Distance driven when it last had advanced by a cell, m, and number of actions since.
+    /// Distance driven when the robot last had advanced by a cell, m. The next field is the number
+    /// of actions since.
     before_last: f64,
     idle: u32,
-    /// Distance driven until it first was at the goal that it was sent to, m; `None` before.
+    /// Distance driven until the robot first was at the goal of the task, m; `None` before.
     arrived: Option<f64>,
     /// Position where the robot was put, and the index of the next pose of its path.
     put: Option<(Point, usize)>,
@@ -485,11 +487,11 @@ pub(super) struct Pursuit {
 /// Course of a task.
 pub(super) struct Driven {
     pub(super) end: TaskEnd,
-    /// Index of its first time step.
+    /// Index of the drive's first pose in the robot's path.
     from: usize,
     bumps: u32,
-    /// Distance driven until it first reached the goal that it was sent to, m; `None` if it did
-    /// not.
+    /// Distance driven until the robot first reached the goal of the task, m; `None` if it never
+    /// did.
     pub(super) arrived: Option<f64>,
     /// Distance driven in all, m.
     pub(super) metres: f64,
@@ -498,7 +500,7 @@ pub(super) struct Driven {
 /// True positions of a robot while it learned.
 #[derive(Default)]
 pub(super) struct TrueVisits {
-    /// The cell in which it came to each of its places.
+    /// The cell in which the robot came to each place of its map.
     arrivals: Vec<Cell>,
     /// Place that the system believed in after each action.
     beliefs: Vec<PlaceVisit>,
@@ -774,7 +776,7 @@ impl Bout {
         })
     }
 
-    /// Returns its answer after localizing has ended, compared with the truth.
+    /// Returns the system's answer after localizing has ended, compared with the truth.
     pub(super) fn outcome(&self, end: TaskEnd) -> LocateOutcome {
         match end {
             TaskEnd::Done => self.found(),

@@ -19,11 +19,12 @@ pub struct ShowRecord {
     pub explored: f64,
     /// Result of localizing.
     pub found: FoundOut,
-    /// Distance driven to the goal from there, m; `None` if it did not arrive.
+    /// Distance driven to the goal from the place where the robot localized, m; `None` if the robot
+    /// did not arrive.
     pub home: Option<f64>,
     /// Length of the shortest way to the goal from the cell where it then was, m.
     pub shortest: f64,
-    /// Reason why it gave up on the way to the goal; empty if it did not.
+    /// Reason why the system gave up on the way to the goal; empty if it did not.
     pub gave_up: String,
 }
 
@@ -92,11 +93,11 @@ impl Contest<'_> {
 /// The way to the goal of a robot that was not lifted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WayHome {
-    /// Distance driven until it was at the goal, m; `None` if it did not arrive.
+    /// Distance driven until the robot was at the goal, m; `None` if it did not arrive.
     pub metres: Option<f64>,
     /// Length of the shortest way to the goal from the cell where it was, m.
     pub shortest: f64,
-    /// Reason why it gave up; empty if it did not.
+    /// Reason why the system gave up; empty if it did not.
     pub gave_up: String,
 }
 

@@ -37,7 +37,7 @@ enum Stage {
 pub enum TaskRecord {
     /// The system has learned.
     Learned(LearnRecord),
-    /// The system has found out where it was put down, or not.
+    /// Result of localizing a robot that was put down.
     Found(FoundOut),
     /// The system has gone to the goal, or not.
     Home(WayHome),

@@ -27,14 +27,14 @@ pub struct TrueGraph {
 /// A way between two places.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TrueWay {
-    /// The places at its ends, which may be the same.
+    /// The places at the way's ends, which may be the same.
     pub ends: [Cell; 2],
     /// The cells in between, from the first end to the second.
     pub between: Vec<Cell>,
 }
 
 impl TrueWay {
-    /// Returns whether it joins two places, in either order.
+    /// Returns whether the way joins two places, in either order.
     #[must_use]
     pub fn joins(&self, one: Cell, other: Cell) -> bool {
         self.ends == [one, other] || self.ends == [other, one]

@@ -16,7 +16,8 @@ use crate::pioneer::calibrated;
 /// no distance.
 const STEPS_A_METRE: f64 = 20.0;
 
-/// Minimum share of its belief in one cell at which it is sure where it is.
+/// Minimum share of a wanderer's belief in one cell at which the wanderer is sure of its place, 0
+/// to 1.
 const SURE: f64 = 0.95;
 
 /// Sends a baseline from the positions where systems are put down, on the laser Pioneer.
@@ -131,7 +132,7 @@ impl<'a> Sender<'a> {
     }
 }
 
-/// Returns its most likely position, if enough of the belief is near that position.
+/// Returns the most likely position of a belief, if enough of the belief is near that position.
 fn sure_of(belief: &[Guess], pitch: f64) -> Option<Point> {
     let point = |guess: &Guess| match guess.at {
         Position::Point(point) => Some(point),

@@ -17,7 +17,7 @@ pub enum Terrain {
 /// A world whose walls stand anywhere.
 #[derive(Clone, Debug)]
 pub struct FreeWorld {
-    /// Its walls and doors, with the zones `destination` and, maybe, `start`.
+    /// Walls and doors, with the zone `destination` and perhaps the zone `start`.
     pub world: World,
     /// Width of its corridors for control layers and detectors, m; `None` for that of the robot's
     /// mazes.

@@ -22,9 +22,9 @@ pub struct Distinctness {
 /// Two walks and how similar they are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WalkPair {
-    /// First walk, by the places it led from and to.
+    /// First walk, by the places from which and to which it led.
     pub one: (Cell, Cell),
-    /// Second walk, by the places it led from and to.
+    /// Second walk, by the places from which and to which it led.
     pub other: (Cell, Cell),
     /// Whether the second walk is compared as it was walked, or inverted.
     pub sense: Sense,

@@ -30,7 +30,7 @@ pub struct Exploration {
     pub seconds: Option<f64>,
     /// Theorem 1's bound of that time, with the robot's own durations, s.
     pub bound: f64,
-    /// Number of time steps in which its body touched a wall.
+    /// Number of time steps in which the robot's body touched a wall.
     pub bumps: u32,
     /// Reason why the exploration broke off.
     pub trouble: Option<String>,

@@ -17,9 +17,9 @@ pub struct TrueFragments {
 pub struct WayOut {
     /// The fragment's number.
     pub fragment: u32,
-    /// Whether it is entered at its first end.
+    /// Whether the robot enters the fragment at its first end.
     pub is_forward: bool,
-    /// Cell at its end.
+    /// Cell of the place at the fragment's other end.
     pub to: Cell,
     /// Length in cells.
     pub cells: u32,

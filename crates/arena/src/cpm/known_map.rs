@@ -29,7 +29,7 @@ pub(super) struct KnownMap<'a> {
 #[derive(Clone, Copy, Debug)]
 struct Visit {
     cell: Cell,
-    /// An earlier visit of the same place; itself if none is known.
+    /// Number of an earlier visit to the same place; the visit's own number if none is known.
     same: u32,
 }
 

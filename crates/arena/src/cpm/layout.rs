@@ -39,7 +39,7 @@ pub struct Layout {
 pub struct OpenPort {
     /// Port of the map.
     pub port: Port,
-    /// The cell of its junction.
+    /// The cell of the port's junction.
     pub cell: Cell,
     /// Cell to which the port leads.
     pub next: Cell,

@@ -22,13 +22,13 @@ pub struct PutDown<'a> {
     /// The mazes that the robot knows, all with one width of corridors and learned with the same
     /// patterns.
     pub known: &'a [KnownMaze<'a>],
-    /// Number of the maze it is put into.
+    /// Number of the maze into which the robot is put, an index into `known`.
     pub here: usize,
     /// Patterns that the robot learned before.
     pub patterns: &'a CommonPatterns,
     /// Configuration of the robot.
     pub robot: EpuckConfig,
-    /// Its way to the first place.
+    /// Way of the robot to the first place.
     pub approach: Approach,
     /// Number of places, from the one ahead on, after which the robot has to know where it is; at
     /// least 1.
@@ -42,7 +42,7 @@ pub struct PutDown<'a> {
 pub struct KnownMaze<'a> {
     /// Maze that the robot knows.
     pub course: &'a Course,
-    /// The trial in which the robot learned its map of it.
+    /// The trial in which the robot learned its map of the maze.
     pub learned: &'a TrialRecord,
 }
 
@@ -54,8 +54,9 @@ pub struct PutDownRecord {
     /// Probability that an ideal observer would know maze, fragment and direction before the first
     /// place, by the corridor's bends, 0 to 1.
     pub knowable_by_bends: f64,
-    /// Probability that the observer would know them if it saw more, 0 to 1: the place ahead, and
-    /// the side ways of a place behind that it stands beside. No robot knows more on average.
+    /// Probability that such an observer would know maze, fragment and direction if it saw more, 0
+    /// to 1. It also sees the place ahead, and the side ways of a place behind that it stands
+    /// beside. No robot knows more on average.
     pub knowable_by_places: f64,
     /// Whether the robot knew maze, fragment and direction before the first place; false if it had
     /// observed nothing.

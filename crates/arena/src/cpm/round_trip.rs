@@ -26,7 +26,7 @@ pub struct RoundTrip {
     /// Second way to the goal, the shortest that is known then. `None` if the robot did not come
     /// back.
     pub again: Option<EpisodeSummary>,
-    /// Number of unknown fragments it entered on the way back.
+    /// Number of unknown fragments that the robot entered on the way back.
     pub tried: u32,
     /// Number of these in which the robot turned round, as they "will never be shorter".
     pub given_up: u32,

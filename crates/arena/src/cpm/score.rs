@@ -22,7 +22,7 @@ pub struct Closures {
     /// or by a map that became the likeliest later. Each counts once, even if it makes much of the
     /// map wrong or is corrected later.
     pub wrong: u32,
-    /// Truth of a trial, by which it is scored.
+    /// Number of fragments that were walked again and are on the map at the end as another one.
     pub missed: u32,
 }
 
@@ -42,7 +42,7 @@ pub(super) struct Score<'a> {
     pub(super) truth: BTreeMap<FragmentId, WayOut>,
     /// Cell of each place of the map.
     places: BTreeMap<JunctionId, Cell>,
-    /// Observations of each true fragment when it was first walked.
+    /// Number of observations of each true fragment on its first walk, by the fragment's number.
     pub(super) lengths: BTreeMap<u32, u32>,
     pub(super) known: KnownMap<'a>,
 }
@@ -52,7 +52,7 @@ pub(super) struct Score<'a> {
 struct Base {
     /// The port behind the robot.
     at: Port,
-    /// Number of walks before it.
+    /// Number of walks before the starting point.
     walks: usize,
     truth: BTreeMap<FragmentId, WayOut>,
     places: BTreeMap<JunctionId, Cell>,
@@ -61,7 +61,7 @@ struct Base {
 /// A walk to the end of a fragment, as it truly was.
 struct Walked {
     turn: Turn,
-    /// True fragment of the walk; `None` if it began on no fragment.
+    /// True fragment of the walk; `None` if the walk began on no fragment.
     way: Option<WayOut>,
     /// Cell where the walk ended.
     here: Option<Cell>,

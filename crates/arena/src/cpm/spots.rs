@@ -16,13 +16,13 @@ use tolman_systems::cpm::Approach;
 pub(super) struct Spot {
     cell: Cell,
     heading: Direction,
-    /// Way that the robot is then on.
+    /// Fragment and direction in which the robot walks.
     pub(super) way: WayOut,
     /// The place behind.
     behind: PlaceAtEnd,
     /// Bend of every cell between the places.
     bends: Vec<Quarters>,
-    /// Number of cells of the fragment behind it.
+    /// Number of the fragment's cells behind the spot.
     passed: usize,
     /// The place ahead.
     ahead: PlaceAtEnd,
@@ -39,7 +39,7 @@ struct PlaceAtEnd {
 /// Observations of an ideal observer along a fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Looks {
-    /// The corridor's bends, and where it begins.
+    /// The observer sees the corridor's bends, and where the corridor begins.
     AtBends,
     /// The observer also sees the place ahead, and whether the one behind has ways to its sides.
     AtPlaces,
@@ -48,9 +48,9 @@ pub(super) enum Looks {
 /// View from a spot up to where the end of the fragment comes into sight.
 #[derive(Clone, Debug, PartialEq)]
 struct View<'a> {
-    /// The place behind, if it is seen.
+    /// The place behind; `None` if it is out of sight.
     behind: Option<PlaceAtEnd>,
-    /// The bends of the cells that it sees.
+    /// The bends of the cells in sight.
     bends: &'a [Quarters],
     /// The place ahead.
     ahead: PlaceAtEnd,

@@ -48,8 +48,8 @@ pub struct TrialRecord {
     /// Whether the second episode's way was the shortest that could be known. A fragment walked
     /// twice is known to have the same ends, and start and goal are known.
     pub is_shortest_known: bool,
-    /// Whether it was as short as any way over the walked fragments, with all places known. The
-    /// robot cannot always know that.
+    /// Whether the second episode's way was as short as any way over the walked fragments, with all
+    /// places known. The robot cannot always know that.
     pub is_shortest_as_it_lies: bool,
     /// Whether the map from which the second episode is planned is right. Then it has each visited
     /// place and fragment once, truly joined.
@@ -267,7 +267,7 @@ pub enum CpmTrialError {
         ends.0, ends.1
     )]
     Unwalked {
-        /// The places at its ends.
+        /// The places at the fragment's ends.
         ends: (Cell, Cell),
     },
     /// The map leads to no goal.

@@ -32,11 +32,11 @@ struct Firmware {
     body: SimulatedEpuck,
     /// Speeds of the wheels, steps per second.
     speeds: [i32; 2],
-    /// Angles that the wheels have turned since it was switched on, rad.
+    /// Angles that the wheels have turned since the firmware was started, rad.
     turned: [f64; 2],
     heard: Vec<u8>,
     answers: VecDeque<u8>,
-    /// Number of incoming bytes until one is lost.
+    /// Number of incoming bytes until the next one is lost; `None` if no byte will be lost.
     lost: Option<usize>,
 }
 

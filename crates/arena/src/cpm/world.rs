@@ -39,7 +39,7 @@ pub struct PlaneMaze {
 pub struct MazePlace {
     /// Position, m.
     pub position: Point,
-    /// The landmark that stands there.
+    /// The landmark of the place; `None` without one.
     pub landmark: Option<Landmark>,
     /// Ends of corridors at the place, counter-clockwise.
     pub ports: Vec<CorridorEnd>,
@@ -59,7 +59,7 @@ pub struct CorridorEnd {
 pub struct WorldPort {
     /// Number of the place.
     pub place: u32,
-    /// Its port, counter-clockwise.
+    /// Number of the port at its place, counter-clockwise from 0.
     pub number: u32,
 }
 
@@ -68,11 +68,11 @@ pub struct WorldPort {
 pub struct MazeCorridor {
     /// Patterns observed from − to +.
     pub patterns: Vec<PatternId>,
-    /// Its middle line, from − to +, both places included, m.
+    /// Middle line of the corridor, from − to +, both places included, m.
     pub line: Vec<Point>,
-    /// Port at its beginning.
+    /// Port at the − end of the corridor.
     pub minus: WorldPort,
-    /// Port at its end.
+    /// Port at the + end of the corridor.
     pub plus: WorldPort,
 }
 
@@ -148,12 +148,12 @@ pub struct WorldBuilder {
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum PlaneMazeError {
-    /// A place is not there.
+    /// A place with this number does not exist.
     #[error("place {place} does not exist, there are {count}: add it first")]
     NoSuchPlace {
         /// Number of the place.
         place: u32,
-        /// Number of them.
+        /// Number of places in the drawing.
         count: u32,
     },
     /// No corridor leads to a place.

@@ -75,12 +75,12 @@ impl OfficeConfig {
 /// the maze has a goal, only cells from which a way leads to a goal belong to the office.
 #[derive(Clone, Debug)]
 pub struct Office {
-    /// Its corridors. Doorway n has two leaves, `n a` and `n b`; shut, they make a wall of the
-    /// passage.
+    /// Corridors of the office. Doorway n has two leaves, `n a` and `n b`; shut, they make a wall
+    /// of the passage.
     pub course: Course,
     /// Passages that are doorways, each named from its south or west cell, in order.
     doorways: Vec<(Cell, Direction)>,
-    /// Their numbers.
+    /// Number of each doorway: its index in `doorways`.
     numbers: BTreeMap<(Cell, Direction), usize>,
     /// Cells that belong to the office, in the order of the grid.
     cells: Vec<Cell>,

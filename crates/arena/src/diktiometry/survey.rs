@@ -125,7 +125,7 @@ pub struct Survey {
 pub struct PlaceMark {
     /// Id of the place on the map.
     pub id: u32,
-    /// The box that holds it as seen from the start, m.
+    /// Box that holds the place for certain, as seen from the start, m.
     pub bounds: Bounds,
     /// Label in words.
     pub label: String,

@@ -14,7 +14,7 @@ use crate::pioneer::{CAMERA_PIONEER, LASER_PIONEER, calibrated};
 pub struct SurveyorConfig {
     /// Body, laser and motors. The errors of compass and odometry below are added to its own.
     pub pioneer: LaserPioneerConfig,
-    /// Cue by which it tells places apart.
+    /// Cue by which the robot tells places apart.
     pub sight: PlaceCue,
     /// Largest error of odometry as a share of the distance, 0 … 0.5. Paper: "about 10% of distance
     /// travelled".
@@ -59,7 +59,7 @@ pub enum PlaceCue {
     },
     /// The ways that lead on; walls look the same.
     Exits,
-    /// The ranges of its laser, as shares of its reach.
+    /// The ranges of the robot's laser, as shares of its reach.
     Laser {
         /// Number of columns that the beams are averaged to.
         columns: u32,

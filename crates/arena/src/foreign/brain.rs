@@ -29,7 +29,7 @@ const QUOTED: usize = 80;
 pub struct Hello {
     /// The robot's name.
     pub robot: String,
-    /// Radius of its body, m.
+    /// Radius of the robot's body, m.
     pub radius: f64,
     /// Duration of a time step, µs.
     pub step_us: u64,
@@ -43,9 +43,9 @@ pub struct Hello {
 ///
 /// It gets a line `{"hello": …}` with [`Hello`] and the version of the protocol. Then it gets one
 /// line for each time step: `{"step": 0, "sensing": …, "landmark": null}`, with the robot's sensing
-/// and the landmark that it senses. It answers each but the first with one line: a command of the
-/// robot, such as `{"turn": 0.1, "translate": 0.5}`; `{"done": true}` when the task is done; or
-/// `{"give_up": "why"}`.
+/// and the landmark that it senses. It answers each line but the first with one line. An answer is
+/// a command of the robot, such as `{"turn": 0.1, "translate": 0.5}`; `{"done": true}` when the
+/// task is done; or `{"give_up": "why"}`.
 ///
 /// A program that ends, or uses up its [`Budget`], has given up.
 #[derive(Debug)]
@@ -63,7 +63,7 @@ pub enum BrainError {
     /// The program does not start.
     #[error(transparent)]
     Launch(#[from] LaunchError),
-    /// A line from it is not an answer.
+    /// A line from the brain is not an answer.
     #[error(
         "the brain's answer to step {step} is `{line}`: answer with a command as this robot has it, \
          {{\"done\": true}} or {{\"give_up\": \"why\"}}"
@@ -131,7 +131,8 @@ impl ForeignBrain {
         })
     }
 
-    /// Tells it the readings, and returns its answer; `None` if it has closed its stdout.
+    /// Sends the readings to the program, and returns its answer; `None` if it has closed its
+    /// stdout.
     fn ask(&mut self, step: &Value) -> Result<Option<String>, Overrun> {
         let Some(program) = &mut self.program else {
             return Ok(None);

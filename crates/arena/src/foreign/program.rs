@@ -20,7 +20,7 @@ pub struct Launch<'a> {
     /// Command that runs [`keep`](super::keep) with our process's id and `words` behind it; empty
     /// for no keeper.
     pub keeper: &'a [OsString],
-    /// Destination of its stderr.
+    /// Destination of the program's stderr.
     pub log: Log,
     /// Flag that ends the program once it is raised.
     pub stop: &'a Arc<AtomicBool>,
@@ -38,11 +38,11 @@ pub enum Log {
 /// Resources that a foreign program may use before it is ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
-    /// Maximum duration since its start.
+    /// Maximum duration since the program's start.
     pub time: Duration,
-    /// Number of bytes that it may write.
+    /// Maximum number of bytes that the program may write.
     pub bytes: u64,
-    /// Number of lines that it may write.
+    /// Maximum number of lines that the program may write.
     pub lines: u64,
     /// Maximum length of a line, bytes, with the end of the line.
     pub line_bytes: u64,

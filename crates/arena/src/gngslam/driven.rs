@@ -20,7 +20,7 @@ use super::{GatherError, Pitch, PitchError, PutError};
 /// A drive to the place of a record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlaceDrive {
-    /// True position of the robot at each look, m; the first one at its start.
+    /// True position of the robot at each look, m. The first one is where the drive began.
     pub path: Vec<Point>,
     /// True position at which the record was taken, m.
     pub goal: Point,
@@ -51,7 +51,7 @@ impl PlaceDrive {
 pub struct DrivenMap {
     /// Place map that was learned.
     pub map: PlaceMap,
-    /// True pose of its odometry's origin.
+    /// True pose of the origin of the map's odometry, in the world's frame.
     pub world_from_map: Pose,
     /// Drives in order: each begins where the one before ended.
     pub drives: Vec<PlaceDrive>,

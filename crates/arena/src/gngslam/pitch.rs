@@ -17,15 +17,15 @@ use super::room::Room;
 /// An arena of the place map: its world, and the truth about it.
 #[derive(Clone, Debug)]
 pub struct Pitch {
-    /// Its name: see [`named`](Self::named).
+    /// Name of the arena: see [`named`](Self::named).
     pub name: String,
-    /// Its walls, goals, windows and furniture.
+    /// Walls, goals, windows and furniture of the arena.
     pub world: Arc<World>,
-    /// Poses of its goals.
+    /// Poses of the arena's goals.
     pub goals: Goals,
     /// Lighting of the arena.
     pub light: Light,
-    /// Its floor and ceiling.
+    /// Colours of the arena's floor and ceiling.
     pub backdrop: Backdrop,
     pub(super) room: Room,
 }
@@ -128,8 +128,8 @@ impl Pitch {
         self.room.holds(point)
     }
 
-    /// Returns its world for `tolman`'s commands: the zone `destination` lies before the blue goal,
-    /// and `start` before the yellow one.
+    /// Returns the arena's world for `tolman`'s commands: the zone `destination` lies before the
+    /// blue goal, and `start` before the yellow one.
     ///
     /// # Errors
     /// None.

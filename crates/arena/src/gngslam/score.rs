@@ -29,8 +29,8 @@ pub struct PlaceScorer {
 pub struct PlaceScore {
     /// Mean over the records that were asked about.
     pub mean: PointScore,
-    /// Whether it is a mirror image of the field, like the paper's maps: records that lie
-    /// counter-clockwise around their middle are clockwise on the map.
+    /// Whether the map is a mirror image of the field, like the paper's maps. Records that lie
+    /// counter-clockwise around their middle are then clockwise on the map.
     pub mirrored: bool,
 }
 
@@ -46,8 +46,8 @@ impl PlaceScorer {
         Self::of(labels.collect(), data.goals, Heading::of(to_yellow))
     }
 
-    /// Returns the scorer for the true cells of the records, from record 0 on, and the true
-    /// direction from the blue goal to the yellow one.
+    /// Returns the scorer for the true cells of the records, from record 0 on. `yellow_from_blue`
+    /// is the true direction from the blue goal to the yellow goal.
     #[must_use]
     pub fn of(cells: Vec<Cell>, goals: GoalRecords, yellow_from_blue: Heading) -> Self {
         let extent = FieldExtent::of_middles(&cells);

@@ -40,9 +40,9 @@ pub enum CertificateError {
     Impossible {
         /// Number of the step, from 1.
         index: usize,
-        /// Cell where it begins.
+        /// Cell where the step begins.
         from: Cell,
-        /// Cell where it ends.
+        /// Cell where the step ends.
         to: Cell,
     },
     /// The costs do not agree with the run, or with each other.

@@ -62,8 +62,8 @@ impl Judgement {
     }
 }
 
-/// Returns the score of a mouse that knows its maze, whose best run takes `optimum` steps: to the
-/// goal, a reset, and to the goal again.
+/// Returns the score of a mouse that knows its maze. Its best run takes `optimum` steps. The mouse
+/// runs to the goal, is reset, and runs to the goal again.
 #[must_use]
 pub fn floor(optimum: u32) -> f64 {
     f64::from(optimum) + f64::from(optimum + 1) / 30.0

@@ -107,7 +107,7 @@ pub struct NoisyTrial {
     pub end: NoisyEnd,
     /// Number of steps of the paper's rules.
     pub steps: u32,
-    /// Number of time steps in which it touched a wall.
+    /// Number of time steps in which the mouse touched a wall.
     pub bumps: u32,
     /// Mean distance between true and believed position at the mouse's stops, m.
     pub mean_error: f64,

@@ -4,8 +4,8 @@ use tolman_maze::{Cell, Direction, Maze};
 
 use tolman_systems::baselines::q_learning::{LearningTask, Transition};
 
-/// A maze as a learning task: a step is one cell in some direction, a step against a wall goes
-/// nowhere, and each step costs 1. Cells are numbered by [`tolman_maze::Grid::index`].
+/// A maze as a learning task. A step is one cell in some direction and costs 1. A step against a
+/// wall goes nowhere and costs 1, too. Cells are numbered by [`tolman_maze::Grid::index`].
 #[derive(Clone, Debug)]
 pub struct CellTask<'a> {
     maze: &'a Maze,

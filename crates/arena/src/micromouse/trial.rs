@@ -38,7 +38,7 @@ pub struct SideSeen {
     pub cell: Cell,
     /// Side of the cell.
     pub side: Direction,
-    /// Whether a wall stands there.
+    /// Whether a wall stands on that side.
     pub stands: bool,
 }
 

@@ -10,7 +10,7 @@ use crate::micromouse::SideSeen;
 pub struct Exchange {
     /// Line of the mouse.
     pub line: String,
-    /// The reply; `None` if it needs none.
+    /// Reply of the simulator; `None` for a command without a reply.
     pub reply: Option<String>,
     /// Position of the mouse afterwards.
     pub place: LatticePoint,

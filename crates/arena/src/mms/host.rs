@@ -22,7 +22,7 @@ pub struct Limits {
 /// Result of a mouse.
 #[derive(Clone, Debug, Serialize)]
 pub struct Hosted {
-    /// Whether it finished a run.
+    /// Whether the mouse finished a run.
     pub solved: bool,
     /// Score as the code of mms computes it; 2000 if unsolved.
     pub score: f32,
@@ -61,7 +61,7 @@ pub enum MouseExit {
     TooMuchOutput,
     /// The mouse closed its stdout and ran on.
     ClosedOutput,
-    /// The caller interrupted it.
+    /// The caller interrupted the game.
     Interrupted,
 }
 

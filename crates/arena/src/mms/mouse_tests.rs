@@ -18,7 +18,7 @@ struct Host<'a> {
     simulator: Simulator<'a>,
     asked: Vec<u8>,
     replies: VecDeque<u8>,
-    /// Replies it gives before it goes away.
+    /// Number of replies before the host goes away.
     left: usize,
     /// Change to the reply of a movement, by its number.
     meddle: fn(u64, String) -> String,

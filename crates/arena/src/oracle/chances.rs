@@ -41,7 +41,7 @@ struct NodeChances {
 #[derive(Clone, Copy)]
 struct Chance {
     steps: f64,
-    /// Node where it ended, or `None` in the destination.
+    /// Node where the action ended, or `None` in the destination.
     end: Option<u32>,
     moved: bool,
 }

@@ -94,7 +94,7 @@ impl Policy {
         Some(self.lattice.pose(head).position)
     }
 
-    /// Returns the positions it knows, by [`Self::position_index`].
+    /// Returns the positions that the policy knows, by [`Self::position_index`].
     pub(super) fn positions(&self) -> impl Iterator<Item = Point> + '_ {
         let axes = AXES.len() as u32;
         let count = self.lattice.node_count() as u32 / axes;

@@ -25,7 +25,7 @@ pub(super) struct Trier<'a> {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tried {
     pub(super) pose: Pose,
-    /// Number of time steps it took.
+    /// Number of time steps that the action took.
     pub(super) steps: u32,
     pub(super) moved: bool,
     /// Whether the robot ended in the destination.

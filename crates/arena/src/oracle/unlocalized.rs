@@ -29,7 +29,7 @@ pub struct UnlocalizedOracle {
     /// The probability of each place of the chart.
     belief: Vec<f64>,
     heading: Heading,
-    /// The action before and how it ended.
+    /// The previous action and its outcome; `None` before the first.
     last: Option<(Direction, Outcome)>,
 }
 

@@ -1,4 +1,4 @@
-//! What no robot should meet, and what becomes of it.
+//! Readings that no robot should meet, and what becomes of them.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;

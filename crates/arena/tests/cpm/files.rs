@@ -52,7 +52,7 @@ fn the_dictionary_of_another_robot_is_refused() {
     ));
 }
 
-/// What is done to a sound file.
+/// Damage that is done to a sound file.
 type Spoil = fn(&mut Value);
 
 fn cut(file: &mut Value, list: &str) {

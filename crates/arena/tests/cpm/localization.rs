@@ -1,4 +1,4 @@
-//! Where am I, and in which of the mazes I know?
+//! Localization of a robot that was put down in one of several known mazes.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

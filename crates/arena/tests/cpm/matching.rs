@@ -1,4 +1,4 @@
-//! How well similarities tell a fragment seen again from all others.
+//! Tests how well similarities tell a fragment seen again from all others.
 
 use proptest::prelude::*;
 use rand::SeedableRng;
@@ -10,7 +10,7 @@ use tolman_maps::cpm::{
     Alignment, Dictionary, FragmentMatching, PatternId, Sense, Similarity, Sum, Turn,
 };
 
-/// A sequence as seen, and the corridor it was.
+/// Number of a corridor, and the sequence of patterns seen along it.
 type Seen = (u32, Vec<PatternId>);
 
 /// Returns every corridor of a world, walked from both ends.

@@ -1,4 +1,4 @@
-//! What is asked of the robust explorer.
+//! Targets of the robust explorer.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -12,11 +12,11 @@ use super::explorations::pursue;
 #[derive(Debug, Default)]
 struct Tally {
     runs: u32,
-    /// Explored to the end, and the map is the maze.
+    /// Number of runs that explored the maze to the end, with a map that equals the maze.
     right: u32,
-    /// Fragments walked, over those of the best covering walk; summed.
+    /// Sum of ratios over the measured runs: fragments walked over those of the best covering walk.
     ratio: f64,
-    /// How many runs that is of: where the best walk is known.
+    /// Number of measured runs: those in mazes whose best covering walk is known.
     measured: u32,
 }
 

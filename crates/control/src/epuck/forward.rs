@@ -75,7 +75,7 @@ impl ForwardConfig {
 struct Beside {
     /// Distance of the wall from the robot's middle, m.
     distance: f64,
-    /// Its direction in the robot's frame, rad, or `None` if only one sensor sees it.
+    /// Direction of the wall in the robot's frame, rad, or `None` if only one sensor sees it.
     angle: Option<f64>,
 }
 

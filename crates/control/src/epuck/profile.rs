@@ -179,7 +179,7 @@ pub enum ProfileError {
         /// Number of the sample, from 0.
         index: usize,
     },
-    /// No sensor looked there.
+    /// No sensor looked towards one of the bearings of the sweep.
     #[error("no sensor gave a value for bearing {index} of the sweep; check the proximity sensors")]
     Blind {
         /// Number of the bearing, from 0.

@@ -37,7 +37,7 @@ pub struct Segments {
 pub struct Segment {
     /// Mean value of the segment.
     pub mean: f64,
-    /// Bearing of its middle, rad, counter-clockwise from ahead, from -π to π.
+    /// Bearing of the segment's middle, rad, counter-clockwise from ahead, from -π to π.
     pub bearing: f64,
     /// Number of samples.
     pub samples: u32,
@@ -194,8 +194,8 @@ impl Profile {
     }
 }
 
-/// A segment as it grows: its values may have boundaries between them, which count for its extent
-/// alone.
+/// Segment while it grows. The values of a segment may have boundaries between them, which count
+/// for its extent alone.
 #[derive(Clone, Copy, Debug)]
 struct Part {
     start: usize,

@@ -5,8 +5,8 @@ use crate::{
     Doubt, ExperimentOutcome, Finding, Measured, Metric, Table, heading, value_with_spread,
 };
 
-/// Returns up to three sentences: the runs and the number of values that match the paper's, the
-/// greatest difference, and the reason why others cannot be judged.
+/// Returns up to three sentences. They give the runs and the number of values that match the
+/// paper's, the greatest difference, and the reason why others cannot be judged.
 pub(super) fn of(outcome: &ExperimentOutcome) -> String {
     let analysis = &outcome.analysis;
     let told = analysis.tally();

@@ -33,9 +33,9 @@ const CAPTION: f64 = 90.0;
 pub(super) struct Shown {
     /// Whether the table is open.
     pub(super) open: bool,
-    /// Number of its varying metrics that are shown when it is open.
+    /// Number of the table's varying metrics that are shown while the table is open.
     pub(super) metrics: usize,
-    /// Number of its figures that are shown when it is open.
+    /// Number of the table's figures that are shown while the table is open.
     pub(super) figures: usize,
 }
 

@@ -47,8 +47,8 @@ pub fn tour_html(outcomes: &[ExperimentOutcome], last: &str) -> String {
 /// One experiment on the page.
 struct Stop<'a> {
     outcome: &'a ExperimentOutcome,
-    /// Its figures under names that are unique on the page: several experiments may use the same
-    /// ids.
+    /// Figures of the experiment, under names that are unique on the page: several experiments may
+    /// use the same ids.
     figures: Vec<Figure>,
 }
 

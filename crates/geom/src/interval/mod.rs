@@ -93,7 +93,7 @@ impl Interval {
         Self::from_bounds(value, value)
     }
 
-    /// Returns its lower and upper halves.
+    /// Returns the lower and the upper half of the interval.
     pub(crate) fn halves(self) -> (Self, Self) {
         let middle = self.middle();
         (

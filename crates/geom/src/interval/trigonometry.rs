@@ -97,8 +97,9 @@ fn sines_of(angle: f64) -> (Interval, Interval) {
     }
 }
 
-/// Returns sine and cosine of an angle within 0.8 rad of 0, by their series in Horner's form: sin x
-/// = x (1 − x²/(2·3) (1 − x²/(4·5) (…))), cos x = 1 − x²/(1·2) (1 − x²/(3·4) (…)).
+/// Returns sine and cosine of an angle within 0.8 rad of 0, by their series in Horner's form. The
+/// series are sin x = x (1 − x²/(2·3) (1 − x²/(4·5) (…))) and cos x = 1 − x²/(1·2) (1 − x²/(3·4)
+/// (…)).
 fn series(x: Interval) -> (Interval, Interval) {
     const ONE: Interval = Interval::point(1.0);
     let square = x.squared();

@@ -60,7 +60,7 @@ pub enum CycleError {
     Gap {
         /// Number of the step, from 0.
         step: usize,
-        /// Pose at which it begins.
+        /// Pose at which the step begins.
         from: u32,
         /// Pose at which the step before ends.
         to: u32,

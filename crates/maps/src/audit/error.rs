@@ -12,9 +12,9 @@ pub enum AuditError {
     Odometry {
         /// Number of the edge, from 0.
         edge: u32,
-        /// The pose it leaves.
+        /// The pose at which the edge begins.
         from: u32,
-        /// The pose it leads to.
+        /// The pose at which the edge ends.
         to: u32,
     },
     /// The scale of the standard deviations is invalid.

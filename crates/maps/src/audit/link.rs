@@ -18,13 +18,14 @@ pub(super) struct Link {
     /// agrees.
     pub(super) off: Motion,
     pub(super) off_inverse: Motion,
-    /// The covariance of its measurement, seen from the first pose of the second pose's piece.
+    /// Covariance of the closure's measurement, seen from the first pose of the second pose's
+    /// piece.
     pub(super) spread: Spread,
     pub(super) cost: f64,
     pub(super) run: u32,
 }
 
-/// Returns whether the gap is within its bound.
+/// Residual of a cycle: its χ² and its spread.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gap {
     pub(super) chi2: f64,
@@ -39,17 +40,17 @@ impl Gap {
         }
     }
 
-    /// Returns whether it is within its bound.
+    /// Returns whether the gap is within its bound.
     pub(super) fn agrees(&self, config: &AuditConfig) -> bool {
         self.chi2 <= config.most_chi2()
     }
 
-    /// Returns whether its region excludes most nearby poses.
+    /// Returns whether the gap is beyond its bound, and by more than rounding.
     pub(super) fn refutes(&self, config: &AuditConfig) -> bool {
         self.chi2 > config.most_chi2() * (1.0 + 1e-6)
     }
 
-    /// Returns whether its region excludes most poses near by.
+    /// Returns whether the gap's region of uncertainty excludes most nearby poses.
     pub(super) fn is_tight(&self, config: &AuditConfig) -> bool {
         self.spread.det() <= config.most_det()
     }
@@ -95,7 +96,8 @@ pub(super) fn links(graph: &PoseGraph, chain: &Chain, config: &AuditConfig) -> V
 }
 
 impl Link {
-    /// Returns its gap from odometry alone; `None` if odometry does not join its poses. O(1).
+    /// Returns the closure's gap from odometry alone; `None` if odometry does not join the
+    /// closure's poses. O(1).
     pub(super) fn gap_to_odometry(&self, chain: &Chain) -> Option<Gap> {
         let joined = chain.joins(self.first, self.second);
         joined.then(|| {

@@ -27,7 +27,7 @@ pub struct SigmaScale {
     pub estimate: f64,
     /// The 99th percentile of χ² over its median; a Gaussian's is 4.8.
     pub tail: f64,
-    /// Number of cycles from which it is computed.
+    /// Number of cycles from which the scale is computed.
     pub cycles: usize,
 }
 

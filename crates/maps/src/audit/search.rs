@@ -31,7 +31,7 @@ pub(super) struct Search {
 struct Reached {
     round: u32,
     before: u32,
-    /// Closure over which it was reached, `SPAN` for none.
+    /// Closure over which the search came, `SPAN` for none.
     over: u32,
     cost: f64,
 }

@@ -102,7 +102,7 @@ pub enum AuditCertificateError {
     Unproven {
         /// Number of the edge, from 0.
         edge: u32,
-        /// The closure it leads over.
+        /// The closure over which the cycle leads.
         over: u32,
     },
     /// A cycle leads over a closure of a run that already counts.
@@ -112,7 +112,7 @@ pub enum AuditCertificateError {
     SameRun {
         /// Number of the edge, from 0.
         edge: u32,
-        /// The closure it leads over.
+        /// The closure over which the cycle leads.
         over: u32,
     },
     /// The cycle that refutes a closure has other steps than the audit states.

@@ -58,7 +58,7 @@ enum Lost {
 struct Child {
     hypothesis: Hypothesis,
     arrival: MapUpdate,
-    /// Index of its parent in the beam.
+    /// Index of the parent hypothesis in the beam.
     parent: usize,
 }
 

@@ -20,7 +20,7 @@ pub enum MapDoubt {
         one.0, other.0
     )]
     Twice {
-        /// The older one.
+        /// Id of the older place.
         one: JunctionId,
         /// Id of the other place.
         other: JunctionId,

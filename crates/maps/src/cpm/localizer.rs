@@ -76,7 +76,7 @@ pub struct LocalizerConfig {
 pub struct Location {
     /// Index of the map in the list.
     pub map: usize,
-    /// Fragment, by the end at which it was entered.
+    /// Fragment, by the end at which the robot entered.
     pub enter: End,
     /// Port to which the fragment leads, or at which the robot has arrived: the argument for
     /// [`CpMapper::place`](super::CpMapper::place).

@@ -123,7 +123,7 @@ impl From<Port> for (JunctionId, u32) {
 pub enum PortState {
     /// The port is unexplored, or was not explored to its end.
     Open {
-        /// Number of observations made beyond it before the robot turned round.
+        /// Number of observations made beyond the port before the robot turned round.
         at_least: u32,
     },
     /// A fragment begins or ends here.
@@ -136,7 +136,7 @@ pub enum PortState {
 pub struct Junction {
     /// Ports in counter-clockwise order.
     pub ports: Vec<PortState>,
-    /// The landmark that stands there.
+    /// The landmark of the junction; `None` without one.
     pub landmark: Option<Landmark>,
     /// Bearings of the ports, from port 0 on, or `None` if no robot has looked.
     pub bearings: Option<Bearings>,
@@ -196,9 +196,9 @@ impl Junction {
 pub struct Fragment {
     /// 𝔸, as observed from − to +.
     pub patterns: Vec<PatternId>,
-    /// Dead reckoning from − to +, combined over all walks along it.
+    /// Dead reckoning from − to +, combined over all walks along the fragment.
     pub motion: Option<DeadReckoning>,
-    /// Number of walks along it, either way.
+    /// Number of walks along the fragment, either way.
     pub traversals: u32,
     /// Port of 𝔸⁻: junc(𝔸⁻).
     pub minus: Port,

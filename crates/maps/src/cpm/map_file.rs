@@ -118,7 +118,7 @@ pub enum MapFileError {
     Fingerprint {
         /// Version the file states.
         expected: String,
-        /// Version its patterns have.
+        /// Version that the file's patterns have.
         found: String,
     },
     /// The patterns are invalid, or the map belongs to another robot.
@@ -149,9 +149,9 @@ pub enum MapFileError {
     BearingsOfPorts {
         /// Number of the junction.
         junction: u32,
-        /// Number of its bearings.
+        /// Number of the junction's bearings.
         bearings: u32,
-        /// Number of its ports.
+        /// Number of the junction's ports.
         ports: usize,
     },
     /// Two entries have one id, or an id is larger than any that was given out.
@@ -159,7 +159,7 @@ pub enum MapFileError {
     BadId {
         /// Kind of entry: a fragment or a junction.
         what: &'static str,
-        /// Its number.
+        /// Id of the entry.
         id: u32,
     },
     /// A fragment and a port contradict each other.

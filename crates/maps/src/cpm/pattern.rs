@@ -69,7 +69,7 @@ pub enum DictionaryError {
     /// A feature is not finite or too large for distances.
     #[error("feature {feature} is {value}: it has to be finite and within ±1e100")]
     BadFeature {
-        /// Its number, from 0.
+        /// Number of the feature, from 0.
         feature: usize,
         /// The value given.
         value: f64,
@@ -91,7 +91,7 @@ pub enum DictionaryError {
     /// A map was written with the patterns of another dictionary.
     #[error("it was written with {} patterns of another dictionary; use the one it was learned with", .version.patterns)]
     OtherDictionary {
-        /// Version it was written with.
+        /// Version of the dictionary with which the map was written.
         version: Version,
     },
     /// Two half-turned patterns do not name each other.

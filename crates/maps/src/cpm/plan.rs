@@ -21,7 +21,7 @@ pub struct Plan {
 pub struct PlanLeg {
     /// Δ, performed before the leg.
     pub turn: Turn,
-    /// Fragment, by the end at which it is entered.
+    /// Fragment, by the end at which the robot enters.
     pub enter: End,
     /// Port at which the leg arrives.
     pub arrive: Port,
@@ -31,9 +31,9 @@ pub struct PlanLeg {
 }
 
 impl CpMap {
-    /// Returns the shortest known way, in observations, from a robot's place to the nearest
-    /// junction for which `wanted` is true, or `None` if none is known. Ties go to the older
-    /// junctions and fragments. O(fragments · log fragments).
+    /// Returns the shortest known way, in observations, to the nearest junction for which `wanted`
+    /// is true. The way begins at the port `from`. Returns `None` if no such way is known. Ties go
+    /// to the older junctions and fragments. O(fragments · log fragments).
     #[must_use]
     pub fn plan(&self, from: Port, wanted: impl Fn(JunctionId) -> bool) -> Option<Plan> {
         let source = self.junctions.rank(from.junction)? as u32;

@@ -197,10 +197,10 @@ pub struct Similarity {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum PatternDifference {
-    /// Distance of their prototypes; d_max is the greatest of those.
+    /// Distance of the patterns' prototypes. d_max is the greatest distance of two prototypes.
     Prototypes,
-    /// Difference of their numbers, taken literally, though numbers are names; d_max is that of the
-    /// last and the first.
+    /// Difference of the patterns' numbers, taken literally, though numbers are names. d_max is the
+    /// difference of the last number and the first.
     Indices,
 }
 
@@ -224,8 +224,8 @@ pub enum Sum {
     /// Mean over the positions: the sum and the division of (3). Long and short fragments are
     /// measured alike.
     Mean,
-    /// The root of the sum of their squares, (4); the sum of (3) over n times the same E, divided
-    /// by n, is E.
+    /// The root of the sum of the squared differences, (4). The sum of (3) over n times the same E,
+    /// divided by n, is E.
     Euclidean,
 }
 

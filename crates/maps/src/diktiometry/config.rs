@@ -50,9 +50,9 @@ pub struct Config {
     pub search: SearchLimits,
     /// Parameters of the paper's *Indexing places*.
     pub indexing: Indexing,
-    /// Number of hypotheses that are followed, and the rules for dropping them.
+    /// Parameters of the paper's *Matching and updating*.
     pub matching: Matching,
-    /// Number of hypotheses followed, and when one is dropped.
+    /// Maximum number of hypotheses (tracks), and the rules for dropping them.
     pub tracks: Tracking,
     /// Parameters of *Transients*.
     pub transients: Transients,
@@ -72,7 +72,7 @@ pub struct ActionKind {
     /// Action that usually leads back, for advice. The map trusts its observations instead, unless
     /// the world is [static](WorldKind::Static).
     pub reverse: Option<Action>,
-    /// Axis of the compass along which it leads straight; `None` if its ways may bend.
+    /// Axis of the compass along which the action leads straight; `None` if its ways may bend.
     #[cfg_attr(feature = "serde", serde(default))]
     pub leads: Option<CompassAxis>,
 }
@@ -93,7 +93,7 @@ pub enum CompassAxis {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Apart {
-    /// Distance between them, as in the paper.
+    /// Distance between the two places, as in the paper.
     #[default]
     Distance,
     /// Distance along one axis of the compass. It holds where corridors follow the axes, but not in
@@ -307,7 +307,7 @@ pub struct Tracking {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Transients {
-    /// Whether they are elided.
+    /// Whether transient links and places are removed from the map.
     pub elision: Use,
     /// Minimum share of expectations that are met, 0 … 1. A link or place below it, with 99 %
     /// certainty, is elided.

@@ -36,7 +36,7 @@ impl Constancy {
         }
     }
 
-    /// Records that it was looked for, with the outcome.
+    /// Records that the thing was looked for, with the outcome.
     pub(super) fn look(&mut self, outcome: Expected, now: u64) {
         let first = Seen {
             first: now,

@@ -8,9 +8,9 @@ pub struct Looks {
     pub kinds: u32,
     /// Number of pairs of places that geometry has told apart.
     pub different: u32,
-    /// Number of these pairs that look alike.
+    /// Number of these pairs of places that look alike.
     pub deceiving: u32,
-    /// Number of these alike pairs with known neighbours along the same action.
+    /// Number of these alike pairs whose neighbours along the same action are known.
     pub followed: u32,
     /// Number of these pairs whose neighbours look alike, too.
     pub repeating: u32,

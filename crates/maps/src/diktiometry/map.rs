@@ -25,7 +25,7 @@ pub struct Diktiometry {
 pub struct DrawnPlace {
     /// Id of the place.
     pub place: PlaceId,
-    /// Bounds of its position, m; it is drawn in the middle.
+    /// Bounds of the place's position, m. The place is drawn in the middle.
     pub bounds: PointBox,
 }
 
@@ -40,13 +40,14 @@ pub enum Flaw {
     DoubleLink(LinkId),
     /// A place lists a link that is removed or does not belong to it.
     StrangeLink(PlaceId),
-    /// A place is not listed by its frame, or listed where it is not.
+    /// A standing place is missing from its frame's list, or a removed place is on it.
     LostPlace(PlaceId),
-    /// A relation differs between its two sides, or is not in order.
+    /// A position or an envelope is unbounded, or the envelope does not hold the position.
     BadBox(PlaceId),
-    /// A link has an action beyond those of the configuration.
+    /// A frame's relations are not in order, differ from those of the other frame, or remain though
+    /// the frame has no places.
     OneSided(FrameId),
-    /// An action beyond those of the configuration.
+    /// A link has an action beyond those of the configuration.
     StrangeAction(LinkId),
 }
 

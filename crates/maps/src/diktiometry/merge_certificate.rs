@@ -75,9 +75,9 @@ pub enum MergeProof {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct JournalSpan {
-    /// Visit at which it begins.
+    /// Visit at which the span begins.
     pub begin: usize,
-    /// Visit at which it ends. A span that ends before it begins is followed backward.
+    /// Visit at which the span ends. A span that ends before it begins is followed backward.
     pub end: usize,
 }
 
@@ -90,7 +90,7 @@ pub struct LookEvidence {
     /// The map's counts of how well looks tell places apart. The checker takes these counts as
     /// given.
     pub looks: Looks,
-    /// Probability that they agree so far at two places, 0 … 1.
+    /// Probability that looks agree as far as these at two different places, 0 … 1.
     pub chance: f64,
 }
 

@@ -45,7 +45,7 @@ pub enum Exits {
     /// The robot cannot tell: any action may be possible.
     #[default]
     Unknown,
-    /// These.
+    /// The robot saw that exactly these actions are possible.
     Seen(Vec<Action>),
 }
 

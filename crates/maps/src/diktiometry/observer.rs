@@ -74,7 +74,7 @@ impl Observer {
         &self.map
     }
 
-    /// Returns the configuration it was made with.
+    /// Returns the configuration with which the observer was made.
     #[must_use]
     pub const fn config(&self) -> &Config {
         &self.config

@@ -12,21 +12,21 @@ use super::{
 /// A place, with its reference link: its position in its canonical frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Place {
-    /// Whether it is still part of the map.
+    /// Whether the place is still part of the map.
     pub fate: Fate,
     /// Frame in which the place's position is given.
     pub frame: FrameId,
-    /// Bounds of its position in its frame, m.
+    /// Bounds of the place's position in its frame, m.
     pub position: PointBox,
     /// The *nominal envelope*: the least box that holds all estimates of its position so far, m.
     pub envelope: PointBox,
-    /// Weighted estimates of its position, m.
+    /// Weighted estimates of the place's position, m.
     pub estims: Vec<Estim>,
     /// Views of the place.
     pub views: Vec<Signature>,
-    /// Links that leave it, by id.
+    /// Links that leave the place, by id.
     pub outgoing: Vec<LinkId>,
-    /// Links that lead to it, by id.
+    /// Links that lead to the place, by id.
     pub incoming: Vec<LinkId>,
     /// Actions that led nowhere when they were last tried here.
     pub blocked: Vec<Action>,
@@ -94,7 +94,7 @@ pub enum Fate {
 pub struct Estim {
     /// Position in the place's canonical frame, m.
     pub position: Point,
-    /// Number of estimates merged into it.
+    /// Number of estimates merged into this one.
     pub weight: f64,
 }
 
@@ -121,7 +121,7 @@ pub struct MergeNote {
 /// Reason why two places may be one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ground {
-    /// Their boxes meet.
+    /// The boxes of the two places overlap.
     Position,
     /// The places look alike, however far apart.
     Look,
@@ -137,15 +137,15 @@ pub struct Link {
     pub action: Action,
     /// Place to which the link leads.
     pub to: PlaceId,
-    /// Number of times that the robot is believed to have gone along it.
+    /// Number of times that the robot is believed to have gone along the link.
     pub traversed: u32,
     /// Number of times that the robot was expected to go along it, and number of times that it did.
     pub counts: Counts,
     /// Whether the link worked when it was last expected to, and how often that changed.
     pub constancy: Constancy,
-    /// Links taken after it, with counts.
+    /// Links taken after this one, with counts.
     pub then: Vec<Successor>,
-    /// Whether it is still part of the map.
+    /// Whether the link is still part of the map.
     pub standing: LinkStatus,
 }
 

@@ -141,7 +141,7 @@ impl PlaceBelief {
 
 /// Result of one action from two possible places.
 enum Pair {
-    /// The outcome tells them apart.
+    /// The outcome tells the two places apart.
     ToldApart,
     /// The robot may now be at one of these two places.
     At((PlaceId, PlaceId)),

@@ -10,14 +10,16 @@ use tolman_geom::PointBox;
 use super::{CoverageGrid, FrameId, PlaceId};
 pub(super) use search::{Reached, search};
 
-/// Places whose position is given in it, by id.
+/// A local frame. All frames lie along the axes of the compass, so that a relation is a
+/// displacement.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
-    /// Relations to other frames, in order of their ids; each is stored on both sides.
+    /// Places whose position is given in the frame, in order of their ids.
     pub places: Vec<PlaceId>,
-    /// Relations to other frames, by their id; each is stored on both sides.
+    /// Relations to other frames, in order of the other frames' ids. Each relation is stored on
+    /// both sides.
     pub relations: Vec<Relation>,
-    /// Traversals of its area.
+    /// Number of traversals of each cell of the frame's area.
     pub grid: CoverageGrid,
 }
 
@@ -34,7 +36,7 @@ impl Frame {
 pub struct Relation {
     /// The other frame.
     pub to: FrameId,
-    /// Position of its origin in this frame, m: the intersection of all estimates.
+    /// Position of the other frame's origin in this frame, m: the intersection of all estimates.
     pub position: PointBox,
     /// Smallest box that holds all estimates, m.
     pub envelope: PointBox,

@@ -42,8 +42,7 @@ pub struct TrackReport {
 /// Prediction of the map for an action at a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Predicted {
-    /// Probability of that place, by the counts of the links. The probabilities of an action at a
-    /// place sum to 1.
+    /// Place to which the action leads.
     pub place: PlaceId,
     /// Probability of that place, by the counts of the links. Those of an action at a place sum to
     /// 1.
@@ -55,7 +54,7 @@ pub struct Predicted {
 /// Two facts that cannot both be true: a bound was broken, or places were confused.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contradiction {
-    /// Track that noticed it.
+    /// Track that noticed the contradiction.
     pub track: TrackId,
     /// Part of the map to blame, if not the move itself.
     pub culprit: Culprit,

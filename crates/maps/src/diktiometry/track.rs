@@ -21,9 +21,9 @@ pub struct Track {
     pub link: Option<LinkId>,
     /// Distance gone since the last CONTINUE, m.
     pub astray: f64,
-    /// Its latest matches, the newest last.
+    /// Latest matches of the track, the newest last.
     pub history: Vec<TrackEntry>,
-    /// Frames about which its position is informative.
+    /// Frames about which the track's position is informative.
     pub active: Vec<ActiveFrame>,
 }
 

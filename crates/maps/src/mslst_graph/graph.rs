@@ -22,7 +22,7 @@ pub enum NodeZone {
 pub struct Node {
     /// Number of the quantizer's state.
     pub state: u32,
-    /// Whether it is a destination node.
+    /// Zone of the node: destination or not.
     pub zone: NodeZone,
     /// Edges in order of insertion. Several may have the same action.
     pub edges: Vec<ActionEdge>,
@@ -34,10 +34,11 @@ pub struct Node {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub struct ActionEdge {
-    /// The action that leads along it.
+    /// The action that leads along the edge.
     pub action: Direction,
-    /// The node it leads to; `None` where the action failed ("Nodes can also have connections to a
-    /// dummy node, which represent failed actions"). No search passes through the dummy node.
+    /// The node to which the edge leads; `None` where the action failed ("Nodes can also have
+    /// connections to a dummy node, which represent failed actions"). No search passes through the
+    /// dummy node.
     pub head: Option<u32>,
 }
 
@@ -63,7 +64,7 @@ pub enum GraphError {
         node: u32,
         /// The edge's action.
         action: Direction,
-        /// Node to which it leads.
+        /// Node to which the edge leads.
         head: u32,
         /// Number of nodes.
         count: u32,
@@ -78,7 +79,7 @@ pub enum GraphError {
         node: u32,
         /// The edge's action.
         action: Direction,
-        /// Node to which it leads.
+        /// Node to which the edge leads.
         head: u32,
     },
     /// Two edges of a node cannot be told apart.

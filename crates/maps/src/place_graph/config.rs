@@ -17,7 +17,8 @@ pub struct PlaceGraphConfig {
     /// Minimum share of an outline's points that must lie on surfaces of the map for a fit to be
     /// believed, 0 … 1.
     pub least_share: f64,
-    /// Share of its last looks that contradict the map above which the robot is lost.
+    /// Share of the robot's last looks that contradict the map, above which the robot counts as
+    /// lost, 0 … 1.
     pub most_doubt: f64,
     /// Maximum number of hypotheses of a lost robot's pose.
     pub most_hypotheses: usize,

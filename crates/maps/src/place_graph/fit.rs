@@ -56,7 +56,7 @@ const DOUBT: f64 = 2.5;
 /// Number of standard deviations above which a residual counts as no match.
 const MOST_OFF: f64 = 3.0;
 
-/// Angle beyond its cone in which a sonar hears, rad: the uncertainty of its mount.
+/// Angle beyond a sonar's cone in which the sonar still hears, rad: the uncertainty of its mount.
 const CONE_SLACK: f64 = 0.03;
 
 /// Weight of each point of an outline relative to an independent one: points of one outline err

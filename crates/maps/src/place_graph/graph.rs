@@ -18,7 +18,7 @@ use crate::tangent::difference;
 #[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SeenThere {
-    /// Odometry of its wheels since its last look, step by step.
+    /// Odometry of the robot's wheels since its last look, step by step.
     pub rolled: Vec<Odometry>,
     /// Snapshot taken at the end of the way.
     pub snapshot: Snapshot,
@@ -74,7 +74,7 @@ struct Here {
     last: u32,
     since: Pose,
     since_covariance: Matrix3<f64>,
-    /// Evidence of its latest looks against the map, in looks.
+    /// Evidence of the robot's latest looks against the map, in looks.
     doubt: f64,
 }
 

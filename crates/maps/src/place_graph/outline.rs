@@ -133,8 +133,8 @@ fn find_normals(points: &mut [OutlinePoint]) {
     }
 }
 
-/// Returns the normal of the line through a point and up to `beside` neighbours on either side;
-/// `None` if they do not lie on a line.
+/// Returns the normal of the line through a point and up to `beside` neighbours on either side.
+/// Returns `None` if these points do not lie on a line.
 fn normal(points: &[OutlinePoint], index: usize, beside: usize) -> Option<Vector> {
     let around = neighbours(points, index, beside)?;
     let line = Line::through(around)?;

@@ -21,9 +21,9 @@ pub(super) struct Surface {
     normal: Vector,
     colour: [f64; 2],
     has_colour: bool,
-    /// Sum of the weights of the points seen on it.
+    /// Sum of the weights of the points seen on the surface.
     weight: f64,
-    /// Id of the place that saw it first.
+    /// Id of the place from which the surface was first seen.
     pub(super) place: u32,
 }
 

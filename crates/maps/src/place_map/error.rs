@@ -48,9 +48,9 @@ pub enum FeatureError {
     OtherSoundings {
         /// Number of the record, from 0.
         record: usize,
-        /// Number in the first record.
+        /// Number of soundings in the first record.
         expected: usize,
-        /// Number in this record.
+        /// Number of soundings in the refused record.
         found: usize,
     },
     /// A range or a position is NaN or infinite.
@@ -98,7 +98,7 @@ pub enum PlaceMapError {
     WrongFormat {
         /// Format that the file states.
         format: alloc::string::String,
-        /// The version it says.
+        /// Version that the file names.
         version: u32,
     },
     /// The network of a saved map has another number of features than its groups have values.

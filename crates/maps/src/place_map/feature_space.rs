@@ -23,9 +23,9 @@ pub struct FeatureSpace {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 pub(super) struct Part {
     pub(super) group: FeatureGroup,
-    /// Number of its values in the vector.
+    /// Number of the group's values in the vector.
     pub(super) len: usize,
-    /// Factor of its values.
+    /// Factor by which the group's values are multiplied.
     pub(super) scale: f32,
 }
 

@@ -17,8 +17,8 @@ pub enum ImageForm {
     /// of 3600 or 14400 values per picture. All distances stay the same, up to what is left out,
     /// and so does every map.
     Span {
-        /// Maximum distance of an image from the span, as a share of the images' mean squared
-        /// distance from their mean. 0 leaves out only the rounding of `f32`.
+        /// Maximum squared distance of an image from the span, as a share of the images' mean
+        /// squared distance from their mean. 0 leaves out only the rounding of `f32`.
         left_out: f64,
     },
 }

@@ -28,9 +28,9 @@ pub(super) struct Spanned {
 }
 
 impl RecordSpan {
-    /// Spans vectors of one length. Stops once every vector is near enough to the span: its squared
-    /// distance is at most the share `left_out` of their mean squared distance from their mean.
-    /// O(n² (length + n)).
+    /// Spans vectors of one length. Stops once the squared distance of every vector from the span
+    /// is small enough. The limit is the share `left_out` of the vectors' mean squared distance
+    /// from their mean. O(n² (length + n)).
     pub(super) fn of(vectors: &[Vec<f32>], left_out: f64) -> Spanned {
         let mean = mean(vectors);
         let centred: Vec<Vec<f32>> = vectors

@@ -7,7 +7,7 @@ use crate::tangent::difference;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PoseEdge {
-    /// Pose from which it was measured.
+    /// Pose from which the edge was measured.
     pub from: u32,
     /// Pose that was measured.
     pub to: u32,
@@ -16,7 +16,7 @@ pub struct PoseEdge {
     /// The inverse of the measurement's covariance: x and y in m, ahead and to the left of the
     /// measured pose, and the heading in rad.
     pub information: Matrix3<f64>,
-    /// Kind of measurement, which decides whether it may be entirely wrong.
+    /// Kind of measurement, which decides whether the edge may be entirely wrong.
     pub kind: PoseEdgeKind,
 }
 

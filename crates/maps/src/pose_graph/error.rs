@@ -9,9 +9,9 @@ pub enum PoseGraphError {
         "the edge from {from} to {to} names a pose that does not exist: add it first; the graph has {poses} poses"
     )]
     NoPose {
-        /// The pose it leaves.
+        /// The pose at which the edge begins.
         from: u32,
-        /// The pose it leads to.
+        /// The pose at which the edge ends.
         to: u32,
         /// The number of poses.
         poses: usize,
@@ -25,9 +25,9 @@ pub enum PoseGraphError {
     /// A number of the measurement or of the information is not finite.
     #[error("the edge from {from} to {to} has a number that is not finite; give finite numbers")]
     NotFinite {
-        /// The pose it leaves.
+        /// The pose at which the edge begins.
         from: u32,
-        /// The pose it leads to.
+        /// The pose at which the edge ends.
         to: u32,
     },
     /// The information matrix is invalid: it is negative in some direction.
@@ -36,9 +36,9 @@ pub enum PoseGraphError {
          definite"
     )]
     Information {
-        /// The pose it leaves.
+        /// The pose at which the edge begins.
         from: u32,
-        /// The pose it leads to.
+        /// The pose at which the edge ends.
         to: u32,
     },
 }

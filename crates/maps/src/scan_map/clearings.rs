@@ -38,7 +38,7 @@ impl<'a> Clearings<'a> {
         self.grid
     }
 
-    /// Returns whether the robot can stand there.
+    /// Returns whether the robot can stand at this point.
     #[must_use]
     pub fn stands(&self, at: Point) -> bool {
         self.grid.stands(index_of(at), self.radius)
@@ -195,8 +195,8 @@ mod tests {
     /// Radius below a cell's, so that the robot stands in every cell of floor.
     const RADIUS: f64 = 0.04;
 
-    /// Returns the grid of a drawing whose first row is the lowest: `#` is wall, a space unknown,
-    /// `v` floor where the robot has been, all else floor.
+    /// Returns the grid of a drawing whose first row is the lowest. `#` is a wall and a space is
+    /// unknown. `v` is floor where the robot has been, and all else is floor.
     fn drawn(drawing: &[&str]) -> WallGrid {
         let letter = |[column, row]: GridIndex| drawing[row as usize].as_bytes()[column as usize];
         let end = [drawing[0].len() as i32, drawing.len() as i32];

@@ -26,14 +26,14 @@ pub struct CorridorMap {
 pub struct CorridorPlace {
     /// Middle of the place, m.
     pub position: Point,
-    /// Landmark that stands there; `None` if there is none.
+    /// Landmark of the place; `None` without one.
     pub landmark: Option<Landmark>,
 }
 
 /// A way of a [`CorridorMap`], which can be gone either way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CorridorWay {
-    /// Numbers of the places at its ends, which may be the same.
+    /// Numbers of the places at the way's ends, which may be the same.
     pub ends: [u32; 2],
     /// Length of the way, m.
     pub length: f64,
@@ -227,8 +227,8 @@ fn aside([low, high]: [Point; 2], at: Point) -> f64 {
     (at - at.sup(&low).inf(&high)).norm()
 }
 
-/// Returns the boxes in which the goal was sensed at these points: one for each of adjacent
-/// corridors.
+/// Returns boxes around the points where the goal was sensed. A goal as wide as several adjacent
+/// corridors gets one box for each corridor.
 fn goals(sensed: &[Point], width: f64) -> Vec<[Point; 2]> {
     let Some([low, high]) = bounds(sensed) else {
         return Vec::new();

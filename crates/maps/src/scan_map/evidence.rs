@@ -24,9 +24,9 @@ pub(super) struct Evidence {
 /// Difference of a scan from a standpoint's view: mean squares, in standard deviations of a range.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Misfit {
-    /// Misfit of all beams; `None` if the map does not know the view.
+    /// Mean square over all beams; `None` if the map knows too little of the view.
     all: Option<f64>,
-    /// Misfit of the beams that do not end on new walls; `None` if no new wall is in sight.
+    /// Mean square over the beams that do not end on new walls; `None` if no new wall is in sight.
     but_for_new_walls: Option<f64>,
 }
 
@@ -41,7 +41,8 @@ const INDEPENDENT_BEAMS: f64 = 8.0;
 /// Misfit below which a better fit adds no evidence: the map's own errors are as large, and occur
 /// in every look.
 const GOOD: f64 = 0.6;
-/// Misfit of a view that the map does not have: that of a wrong place with a similar view.
+/// Misfit that is assumed where the map knows too little of the view, mean square. A wrong place
+/// with a similar view fits about as badly.
 const UNSHOWN: f64 = 2.0;
 /// Mean square misfit above which a scan fits nowhere.
 const SURPRISE: f64 = 3.0;

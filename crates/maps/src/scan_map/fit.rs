@@ -13,7 +13,8 @@ pub(super) struct ScanFit {
     /// Variance of the position along each axis, m². It is unchanged along an axis on which the
     /// walls give no evidence.
     pub(super) variance: Vector,
-    /// How well the compared beams meet walls, 0 to 1; 1 if none could be compared.
+    /// Mean score of the compared beams' ends by their distance from walls, 0 to 1; 1 if no beam
+    /// could be compared.
     pub(super) agreement: f64,
 }
 

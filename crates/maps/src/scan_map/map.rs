@@ -47,9 +47,9 @@ const SPACING_OF_LANDMARK: f64 = 0.02;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ScanPlace {
-    /// Position of the robot at its first visit.
+    /// Position of the robot at the place's first visit, m.
     pub position: Point,
-    /// Landmark that it sensed there.
+    /// Landmark that the robot sensed at the place.
     pub landmark: Option<Landmark>,
 }
 

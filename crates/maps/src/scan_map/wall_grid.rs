@@ -100,7 +100,7 @@ impl WallGrid {
         self.cell(index_of(at)).is_some_and(|cell| cell.wall == 0)
     }
 
-    /// Returns whether a beam has ever reached or passed there.
+    /// Returns whether a beam has ever reached or passed this point.
     #[must_use]
     pub fn is_known(&self, at: Point) -> bool {
         self.cell(index_of(at))

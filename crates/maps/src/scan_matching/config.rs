@@ -43,7 +43,7 @@ pub struct ScanMatchingConfig {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum ClosureSites {
-    /// All along its way.
+    /// All along the robot's way.
     Everywhere,
     /// Only at the keyframes that the caller names: see
     /// [`ScanMatching::recognize`](super::ScanMatching::recognize).
@@ -63,7 +63,7 @@ pub struct ClosureConfig {
     pub least_way: f64,
     /// Number of the last keyframes whose scans are put together and searched for.
     pub query_keyframes: usize,
-    /// Number of keyframes of the old place that they are compared with.
+    /// Number of keyframes of the old place with which these scans are compared.
     pub old_keyframes: usize,
     /// Minimum half-width of the window for an old place, along each axis.
     pub window: f64,
@@ -71,11 +71,11 @@ pub struct ClosureConfig {
     pub window_growth: f64,
     /// Maximum half-width of the window for an old place.
     pub most_window: f64,
-    /// Minimum half-width of the window for its heading.
+    /// Minimum half-width of the window for the heading at an old place, rad.
     pub window_turn: f64,
     /// Growth of that half-width per metre of way since the last closure, rad/m.
     pub window_turn_growth: f64,
-    /// Maximum half-width of the window for its heading.
+    /// Maximum half-width of the window for the heading at an old place, rad.
     pub most_window_turn: f64,
     /// Minimum score of a closure.
     pub least_score: f64,

@@ -42,7 +42,7 @@ pub enum ScanMatchingError {
         scan: usize,
         /// Number of ranges in the scan.
         found: usize,
-        /// Number of beams of its ring.
+        /// Number of beams of the scan's ring.
         beams: u32,
     },
     /// An edge does not fit the graph.
@@ -76,7 +76,7 @@ pub(super) struct Keyframe {
     pub(super) way: f64,
     /// Number of the scan that became the keyframe, from 0.
     pub(super) scan: usize,
-    /// Direction of its surfaces in its own frame: [`ScanOutline::axis`].
+    /// Direction of the keyframe's surfaces in its own frame: [`ScanOutline::axis`].
     pub(super) axis: Vector,
 }
 

@@ -15,7 +15,7 @@ pub(super) struct Log<const LOG: usize> {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Entry {
     wall: u16,
-    /// Number of walls of the same observation before it.
+    /// Index of the wall among those that the same observation revealed, from 0.
     place: u16,
 }
 

@@ -52,7 +52,7 @@ pub struct WallMap<const N: usize, const LOG: usize = 64> {
     /// Walls between a cell and its northern neighbour.
     north: Plane<N>,
     log: Log<LOG>,
-    /// Number of visits to each cell, by y, then x; it stays at its maximum.
+    /// Number of visits to each cell, by y, then x. A count stays at its maximum.
     visits: [[u8; N]; N],
 }
 

@@ -1,4 +1,4 @@
-//! What an audit finds, and that it can be checked again.
+//! Tests the findings of an audit, and that its certificates can be checked again.
 
 use proptest::prelude::*;
 use rand::seq::SliceRandom;

@@ -1,4 +1,4 @@
-//! What every graph of MSLST keeps, however the robot wanders.
+//! Properties of every graph of MSLST, however the robot wanders.
 
 use proptest::prelude::*;
 use tolman_maps::mslst_graph::{

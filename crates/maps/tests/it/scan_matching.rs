@@ -1,4 +1,4 @@
-//! A robot whose wheels lie is where its scans say.
+//! Tests that scans give the right pose of a robot whose odometry is wrong.
 
 use core::f64::consts::PI;
 

@@ -190,7 +190,7 @@ pub enum MazeFault {
         key: &'static str,
         /// Value that was given.
         found: String,
-        /// Values it may have.
+        /// Values that the key may have.
         expected: &'static str,
     },
     /// The header and the drawing have different starts.

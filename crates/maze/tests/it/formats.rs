@@ -1,4 +1,4 @@
-//! What each format's texts mean, and what a format cannot hold.
+//! Tests the meaning of each format's texts, and the mazes that a format cannot hold.
 
 use tolman_maze::{
     Cell, Direction, Format, Grid, Maze, MazeFile, WriteError, parse, parse_as, read, write,

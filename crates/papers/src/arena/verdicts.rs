@@ -67,7 +67,7 @@ pub struct VerdictPool {
 /// A system's verdict on its map, and whether the map is right.
 #[derive(Clone, Copy, Debug)]
 struct OwnVerdict {
-    /// Index of the difficulty of its world.
+    /// Index of the difficulty of the map's world.
     rung: usize,
     is_right: bool,
     claim: Claim,
@@ -90,16 +90,16 @@ pub struct PoolJudgement {
     pub right: usize,
     /// Number of wrong maps.
     pub wrong: usize,
-    /// Number of worlds in which it abstained.
+    /// Number of worlds in which the system abstained.
     pub abstained: u32,
-    /// Share of the wrong maps that it called right.
+    /// Share of the wrong maps that the system called right.
     pub false_right_percent: Option<f64>,
-    /// Share of the right maps that it called wrong.
+    /// Share of the right maps that the system called wrong.
     pub false_alarm_percent: Option<f64>,
-    /// Share of all maps on which it gave no verdict.
+    /// Share of all maps on which the system gave no verdict.
     pub undecided_percent: Option<f64>,
-    /// Brier skill of its verdicts over the share of right maps: 1 for perfect verdicts. `None` if
-    /// all maps are right, or all wrong.
+    /// Brier skill of the system's verdicts over the share of right maps: 1 for perfect verdicts.
+    /// `None` if all maps are right, or all wrong.
     pub brier_skill: Option<f64>,
     /// Results by difficulty, the easiest first.
     pub drawn: Vec<RungJudgement>,
@@ -114,11 +114,11 @@ pub struct RungJudgement {
     pub worlds: u32,
     /// Number of right maps.
     pub right: usize,
-    /// Number of right maps that it called wrong.
+    /// Number of right maps that the system called wrong.
     pub false_alarms: usize,
     /// Number of wrong maps.
     pub wrong: usize,
-    /// Number of wrong maps that it called right.
+    /// Number of wrong maps that the system called right.
     pub false_right: usize,
 }
 

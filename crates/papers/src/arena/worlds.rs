@@ -33,7 +33,7 @@ pub struct DrawnWorld {
     pub maze: Maze,
     /// Seed of all random numbers of the contest.
     pub seed: u64,
-    /// Number of times that a robot is put down in it for each task.
+    /// Number of times that a robot is put down in the drawing for each task.
     pub starts: u32,
 }
 

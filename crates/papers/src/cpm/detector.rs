@@ -52,7 +52,7 @@ const WIDE: f64 = 0.30;
 /// Maximum offset of the robot from the middle of a cell along either axis, m.
 const OFF: f64 = 0.02;
 
-/// Maximum error of its heading, rad.
+/// Maximum error of the robot's heading, rad.
 const ASKEW: f64 = 0.15;
 
 record! {

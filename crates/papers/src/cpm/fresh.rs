@@ -37,7 +37,7 @@ const OPEN: [&str; 3] = ["rooms", "braided rooms", "pillars"];
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct FreshRow {
     pub(super) row: String,
-    /// Families from which its worlds are drawn.
+    /// Families from which the row's worlds are drawn.
     families: Vec<&'static str>,
     /// Maximum error of each wheel, %.
     wheels: u8,

@@ -9,7 +9,7 @@ use tolman_quantizers::GngConfig;
 pub(super) struct Parameter {
     /// Name of the parameter in the paper.
     pub(super) name: &'static str,
-    /// Minimum and maximum of its search space.
+    /// Minimum and maximum of the parameter's search space.
     pub(super) space: (f64, f64),
     /// Minimum and maximum of the range that the paper calls optimal.
     pub(super) optimal: (f64, f64),

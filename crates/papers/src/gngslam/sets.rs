@@ -15,7 +15,7 @@ pub(super) const RANDOM_SCORE: f64 = 0.175;
 /// A set of features.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Set {
-    /// Name of its row.
+    /// Name of the row of this set.
     pub(super) row: &'static str,
     image: ImageFeature,
     pub(super) with_sonar: bool,

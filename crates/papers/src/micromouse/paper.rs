@@ -24,7 +24,7 @@ struct PaperRow {
     name: &'static str,
     searcher: Searcher,
     maze: Option<Maze>,
-    /// Path of its maze below the folder of external data.
+    /// Path of the row's maze below the folder of external data.
     file: &'static str,
     /// Move length and average score in the paper.
     paper: Option<(f64, f64)>,

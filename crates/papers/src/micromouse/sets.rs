@@ -15,7 +15,7 @@ use tolman_systems::micromouse::SIDE;
 /// A set of mazes with a name.
 #[derive(Debug)]
 pub(super) struct MazeSet {
-    /// Name of its row.
+    /// Name of the row of this set.
     pub(super) name: String,
     /// Mazes with the names of their files, sorted by name.
     pub(super) mazes: Vec<(String, Maze)>,

@@ -11,7 +11,7 @@ use tolman_robot::{TimedPose, Trajectory};
 
 /// Time between two poses of the robot that are kept, s.
 const STEP_S: f64 = 1.0;
-/// Number of poses after which all are optimized.
+/// Number of new poses after which all poses are optimized again.
 const ROUND: usize = 60;
 /// Standard deviations of a range, m, and of a bearing, rad.
 const RANGE_ERROR: f64 = 0.15;

@@ -30,9 +30,9 @@ pub(super) use paper::{PaperRow, StatesRow, TABLE_1, states_row};
 /// A world with its table.
 #[derive(Debug)]
 pub(super) struct Venue {
-    /// Name of its table in `summary.json`.
+    /// Name of the world's table in `summary.json`.
     pub(super) table: String,
-    /// Title of its table.
+    /// Title of the world's table.
     pub(super) title: String,
     pub(super) course: Course,
     pub(super) robot: LaserPioneerConfig,
@@ -46,7 +46,7 @@ pub(super) struct Venue {
 #[derive(Debug, Serialize)]
 pub(super) struct World {
     maze: String,
-    /// Width of its corridors, m.
+    /// Width of the world's corridors, m.
     corridor_width: f64,
     /// Maximum number of time steps of a run.
     step_limit: u32,

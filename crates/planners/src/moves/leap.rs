@@ -9,7 +9,7 @@ pub struct Leap {
     pub direction: Direction,
     /// Number of cells, 1 to [`Leap::MOST_CELLS`].
     pub cells: u8,
-    /// Cell at its end.
+    /// Cell at the leap's end.
     pub end: Cell,
 }
 

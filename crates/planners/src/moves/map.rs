@@ -174,9 +174,9 @@ impl<const N: usize> MoveMap<N> {
 /// Breadth-first search: the cells at one number of steps.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Wave<const N: usize> {
-    /// Cells at most this number of steps away.
+    /// Cells that are at most the present number of steps away.
     reached: CellSet<N>,
-    /// Cells at exactly this number of steps.
+    /// Cells that are exactly the present number of steps away.
     pub(super) front: CellSet<N>,
     pub(super) moves: u16,
 }

@@ -43,15 +43,15 @@ pub struct SpeedProfile {
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct SlalomTimes {
-    /// 45° from a straight into a diagonal, or out of one.
+    /// Turn of 45° from a straight into a diagonal, or from a diagonal into a straight.
     pub f45_ms: u16,
-    /// 90° from a straight into a straight, over two cells.
+    /// Turn of 90° from a straight into a straight, over two cells.
     pub f90_ms: u16,
-    /// 135° from a straight into a diagonal, or out of one.
+    /// Turn of 135° from a straight into a diagonal, or from a diagonal into a straight.
     pub f135_ms: u16,
-    /// 180° from a straight into the straight beside it.
+    /// Turn of 180° from a straight into the straight beside it.
     pub f180_ms: u16,
-    /// 90° from a diagonal into a diagonal.
+    /// Turn of 90° from a diagonal into a diagonal.
     pub fv90_ms: u16,
 }
 

@@ -51,7 +51,7 @@ pub enum Slalom {
 /// A move of a speed run and where it begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RunStep {
-    /// State of the mouse before it.
+    /// State of the mouse before the step.
     pub from: RunState,
     /// Straight or turn of this step.
     pub run_move: RunMove,

@@ -81,15 +81,15 @@ impl<const N: usize> SpeedRunTimes<N> {
         })
     }
 
-    /// Returns the duration of a straight of `cells` cells, from the middle of one to the middle of
-    /// another; `None` if it does not fit into the maze.
+    /// Returns the duration of a straight of `cells` cells, ms, from the middle of one cell to the
+    /// middle of another. Returns `None` if the straight does not fit into the maze.
     #[must_use]
     pub fn straight_ms(&self, cells: usize) -> Option<u16> {
         self.straights().get(cells).copied()
     }
 
-    /// Returns the duration of a diagonal across `cells` cells, from the middle of one edge to that
-    /// of another; `None` if it does not fit into the maze.
+    /// Returns the duration of a diagonal across `cells` cells, ms, from the middle of one edge to
+    /// the middle of another. Returns `None` if the diagonal does not fit into the maze.
     #[must_use]
     pub fn diagonal_ms(&self, cells: usize) -> Option<u16> {
         self.diagonals().get(cells).copied()

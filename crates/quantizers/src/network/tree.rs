@@ -49,7 +49,7 @@ struct Leaf<S> {
     high: [S; MOST_FEATURES],
 }
 
-/// The leaf a slot's unit is in, and its lane there.
+/// The leaf that holds a slot's unit, and the unit's lane in that leaf.
 #[derive(Clone, Copy, Debug, Default)]
 struct Place {
     leaf: u32,

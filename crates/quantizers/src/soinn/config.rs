@@ -23,23 +23,23 @@ pub struct SoinnConfig {
 }
 
 /// Inserts a unit r every λ inputs ("within-class insertion", Shen and Hasegawa 2006, algorithm
-/// 3.1, step 10). It lies half-way between the unit q of largest error and its neighbour f of
-/// largest error. r gets a sixth of the errors, and a quarter of the wins and of the remembered
-/// radii. q and f keep ⅔ of their errors and ¾ of their wins. It is undone if the mean error E / M
-/// has grown beyond the radius remembered from the previous insertion. For a unit without a
-/// previous insertion that radius is +∞.
+/// 3.1, step 10). Unit r lies half-way between the unit q of largest error and its neighbour f of
+/// largest error. Unit r gets a sixth of the errors, and a quarter of the wins and of the
+/// remembered radii. Units q and f keep ⅔ of their errors and ¾ of their wins. The insertion is
+/// undone if the mean error E / M has grown beyond the radius remembered from the previous
+/// insertion. For a unit without a previous insertion that radius is +∞.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 #[non_exhaustive]
 pub enum ErrorInsertion {
-    /// Undone if one of q, f, r has a mean error beyond its radius.
+    /// The insertion is undone if one of q, f and r has a mean error beyond its radius.
     #[default]
     UnlessOneGrew,
-    /// Undone only if all three have grown: the paper's "∀ i ∈ {q, r, f}", taken literally.
-    /// Networks become many times as large.
+    /// The insertion is undone only if all three have grown: the paper's "∀ i ∈ {q, r, f}", taken
+    /// literally. Networks become many times as large.
     UnlessAllGrew,
-    /// None at all, as in E-SOINN (Furao, Ogura, Hasegawa 2007).
+    /// No unit is inserted, as in E-SOINN (Furao, Ogura, Hasegawa 2007).
     Off,
 }
 

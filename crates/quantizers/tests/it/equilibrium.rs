@@ -1,4 +1,4 @@
-//! Where the gates of equilibrium GNG end growth.
+//! Tests at which size the gates of equilibrium GNG end growth.
 
 use proptest::prelude::*;
 use tolman_quantizers::{ErrorKind, Gng, GngConfig, GrowthGate, Quantizer};

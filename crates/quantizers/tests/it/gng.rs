@@ -1,4 +1,4 @@
-//! What holds for every growing neural gas after every input.
+//! Properties of every growing neural gas after every input.
 
 use alloc::collections::{BTreeMap, BTreeSet};
 

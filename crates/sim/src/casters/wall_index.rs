@@ -30,7 +30,7 @@ pub struct WallIndex {
 struct Trace {
     start: Point,
     end: Point,
-    /// One over the square of its length.
+    /// 1 over the square of the wall's length, 1/m².
     per_square: f64,
 }
 

@@ -68,9 +68,9 @@ pub enum Fault {
     },
     /// A sensor that sometimes gets stuck and repeats its reading.
     Stuck {
-        /// Probability that it gets stuck at a reading, 0 to 1.
+        /// Probability that the sensor gets stuck at a reading, 0 to 1.
         probability: f64,
-        /// Number of readings it repeats before it comes free.
+        /// Number of readings that the sensor repeats before it comes free.
         steps: u32,
     },
     /// Readings that come late. Before the first has arrived, readings are missing.
@@ -219,7 +219,7 @@ impl Fault {
 pub(super) struct Past<V> {
     /// Earlier values, the oldest first.
     values: VecDeque<Option<V>>,
-    /// Number of readings for which it still goes on.
+    /// Number of readings for which the present fault still lasts.
     steps_left: u32,
     /// Numbers drawn for that many readings.
     drawn: [f64; 2],

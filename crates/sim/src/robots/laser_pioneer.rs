@@ -268,7 +268,7 @@ impl LaserPioneer {
         self
     }
 
-    /// Returns its configuration.
+    /// Returns the robot's configuration.
     #[must_use]
     pub fn config(&self) -> &LaserPioneerConfig {
         &self.config

@@ -6,7 +6,7 @@ use crate::WallSegment;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cone {
     apex: Point,
-    /// Unit normals of its two edges, pointing inward.
+    /// Unit normals of the cone's two edges, pointing inward.
     normals: [Vector; 2],
 }
 

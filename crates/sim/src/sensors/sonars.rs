@@ -48,7 +48,7 @@ pub struct CrossTalk {
     /// Probability of cross-talk for each reading, 0 to 1.
     pub probability: f64,
     /// Number of groups of sonars that fire in turn. Sonars whose numbers differ by a multiple of
-    /// it fire at once. With 0 each sonar fires alone.
+    /// this number fire at once. With 0 each sonar fires alone.
     pub slots: u32,
 }
 

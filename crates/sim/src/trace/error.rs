@@ -109,7 +109,7 @@ pub enum ReplayError {
         line: usize,
         /// The first tick that differs.
         tick: u64,
-        /// The first robot that differs in it.
+        /// The first robot that differs in that tick.
         robot: u32,
         /// The line as it was recorded.
         recorded: String,

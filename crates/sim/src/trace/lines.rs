@@ -29,7 +29,7 @@ pub(super) struct Header<M: Recordable> {
 pub(super) struct Start<M: Recordable> {
     pub(super) config: M::Config,
     pub(super) pose: Pose,
-    /// Disturbances beyond its configuration.
+    /// Disturbances of the robot beyond its configuration.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub(super) disturbances: Vec<String>,
 }
@@ -44,14 +44,14 @@ pub enum TraceLine<M: Recordable> {
     Place {
         /// Id of the robot.
         robot: RobotId,
-        /// Its new pose.
+        /// New pose of the robot.
         pose: Pose,
     },
     /// A door was moved after the steps so far.
     Door {
         /// Name of the door.
         name: String,
-        /// Its new state.
+        /// New state of the door.
         state: DoorState,
     },
 }
@@ -68,11 +68,11 @@ pub struct StepRecord<M: Recordable> {
     pub robot: RobotId,
     /// Command of the robot in this step.
     pub command: M::Command,
-    /// Its pose afterwards.
+    /// Pose of the robot after the step.
     pub pose: Pose,
     /// Whether a contact cut the robot's motion.
     pub bump: bool,
-    /// Its readings then, if they were recorded.
+    /// Readings of the robot after the step, if they were recorded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sensing: Option<M::Sensing>,
 }

@@ -82,7 +82,7 @@ pub enum WorldError {
         height: usize,
         /// Size of a cell, m.
         resolution: f64,
-        /// Number of values it holds.
+        /// Number of values that the grid holds.
         bits: usize,
     },
     /// No cell of an occupancy grid is free.

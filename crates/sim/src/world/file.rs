@@ -168,7 +168,7 @@ pub enum WorldFileError {
     /// The file has another format.
     #[error("the format is `{found}`, expected `{FORMAT}`; give a world file")]
     Format {
-        /// Format that it names.
+        /// Format that the file names.
         found: String,
     },
     /// The file has a version that this program does not know.
@@ -176,10 +176,10 @@ pub enum WorldFileError {
         "the version is {found}, but this program reads version {VERSION}; write the world again"
     )]
     Version {
-        /// Version that it names.
+        /// Version that the file names.
         found: u32,
     },
-    /// The parts of its grid contradict each other.
+    /// The parts of the file's grid contradict each other.
     #[error("the sizes within `lattice` or `cells` contradict each other; write the file again")]
     Lattice,
     /// The file describes no world.

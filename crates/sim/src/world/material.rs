@@ -2,7 +2,7 @@
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Material {
-    /// Share of infrared light that it reflects, 0 … 1.
+    /// Share of infrared light that the wall reflects, 0 … 1.
     pub reflectance: f64,
     /// Red, green and blue.
     pub colour: [u8; 3],

@@ -19,9 +19,9 @@ pub enum Area {
     Rectangle(Bounds),
     /// A disc.
     Disc {
-        /// Its middle, m.
+        /// Middle of the disc, m.
         centre: Point,
-        /// Its radius, m.
+        /// Radius of the disc, m.
         radius: f64,
     },
 }

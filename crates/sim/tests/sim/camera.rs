@@ -1,4 +1,4 @@
-//! What a column camera sees.
+//! Tests the images of a column camera.
 
 use tolman_geom::{Heading, Point, Pose};
 use tolman_robot::{Robot, TurnTranslate};

@@ -9,10 +9,10 @@ use tolman_sim::casters::{BeamSweep, Caster, Lanes, LatticeWalk, ParryPolyline, 
 
 use crate::worlds;
 
-/// How closely casters agree, m.
+/// Maximum difference of the ranges of two casters, m.
 const CLOSE: f64 = 1e-9;
 
-/// What rays may read in a world of walls, by parry2d.
+/// Ranges that rays may read in a world of walls, by parry2d.
 ///
 /// Where a ray passes the end of a wall closely, a caster may see the end or what lies behind it.
 /// The range is at least that of slightly longer walls and at most that of slightly shorter ones.

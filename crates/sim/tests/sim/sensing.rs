@@ -1,4 +1,4 @@
-//! What a laser robot senses, and what a simulation refuses.
+//! Tests the readings of a laser robot, and the inputs that a simulation refuses.
 
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maze::{Cell, Direction, Grid, Maze};

@@ -55,11 +55,12 @@ pub struct Walked {
     pub turn: Turn,
     /// Observations on the way, up to the end or to the point where the robot turned round.
     pub observations: Vec<Observation>,
-    /// Place at the fragment's end; `None` if the robot turned round in it.
+    /// Place at the fragment's end; `None` if the robot turned round before the end.
     pub sighting: Option<Sighting>,
     /// Displacement by dead reckoning; `None` if that is not trusted, as in the paper.
     pub motion: Option<DeadReckoning>,
-    /// Bearings of the ways out of its end; `None` if they only have numbers, as in the paper.
+    /// Bearings of the ways out of the place at the fragment's end; `None` if the ways only have
+    /// numbers, as in the paper.
     pub bearings: Option<Bearings>,
 }
 

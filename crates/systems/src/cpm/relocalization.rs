@@ -31,7 +31,7 @@ pub struct Relocalization {
     /// Maximum number of places visited after the first.
     last: usize,
     found: Whereabouts,
-    /// Number of ways out of its present place.
+    /// Number of ways out of the robot's present place.
     degree: u32,
 }
 

@@ -29,15 +29,15 @@ pub struct RingAsEpuck<R> {
 /// Measures of a robot with a ring that are needed to make it look like an e-puck.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RingMeasures {
-    /// Width of its corridors from wall to wall, m.
+    /// Width of the robot's corridors from wall to wall, m.
     pub corridor_width: f64,
-    /// Radius of its body, m.
+    /// Radius of the robot's body, m.
     pub body_radius: f64,
     /// Turn made in one time step by the command `turn = 1`, rad.
     pub turn_per_step: f64,
     /// Distance covered in one time step by the command `translate = 1`, m.
     pub translate_per_step: f64,
-    /// Length of its time step, µs.
+    /// Length of the robot's time step, µs.
     pub step_us: u64,
     /// Minimum error to which a turn can be controlled, rad: half the motors' smallest turn.
     pub turn_tolerance: f64,

@@ -1,8 +1,8 @@
 use tolman_robot::epuck::{EpuckSensing, WheelSpeeds};
 use tolman_robot::{Robot, SensesLandmarks};
 
-/// Robots that CPM can drive. They have two driven wheels with encoders, proximity sensors all
-/// round, and a sense for landmarks ("an additional dimension of vector is added for landmark
+/// Robots that CPM can drive. They have two driven wheels with encoders, and proximity sensors all
+/// round. They also sense landmarks ("an additional dimension of vector is added for landmark
 /// detection").
 ///
 /// Any [`Landmarked`](tolman_robot::Landmarked) e-puck is one, and any robot with a laser ring

@@ -37,22 +37,22 @@ use super::whereabouts::Approach;
 pub struct Cpm {
     walker: WalkerConfig,
     config: CpmConfig,
-    /// Maps that the robot may be on; empty if it learns its own.
+    /// Maps that the robot may be on; empty if the system learns its own.
     known: Vec<CpMap>,
-    /// Index of the map that it is on.
+    /// Index of the map that the robot is on.
     on: usize,
-    /// Patterns that it learned before its first map.
+    /// Patterns that the system learned before its first map.
     patterns: CommonPatterns,
     novelty: Option<f64>,
     layer: Option<Layer3>,
-    /// Walks on its map.
+    /// Walks on the present map.
     trail: Trail,
     standing: Stance,
-    /// Number of maps that it gave up because they were impossible.
+    /// Number of maps that the system gave up because they were impossible.
     given_up: u32,
-    /// Number of walks in a row after which its map was impossible.
+    /// Number of walks in a row after which the map was impossible.
     doubtful: u32,
-    /// Number of walks since its map had no unknown port left.
+    /// Number of walks since the map had no unknown port left.
     checked: u32,
     rng: ChaCha8Rng,
 }
@@ -64,7 +64,7 @@ enum Stance {
     Anywhere,
     /// The robot is localizing.
     Searching(Box<(RestingWalker, Relocalization)>),
-    /// The robot is at the place that its map has for it.
+    /// The robot is at the place where its map has it.
     AtPlace(Box<RestingWalker>),
 }
 
@@ -176,7 +176,7 @@ impl Cpm {
         self.on
     }
 
-    /// Returns its explorer with the map; `None` before the first action.
+    /// Returns the system's explorer with the map; `None` before the first action.
     #[must_use]
     pub fn explorer(&self) -> Option<&Explorer> {
         self.layer.as_ref().map(Layer3::explorer)
@@ -369,7 +369,7 @@ impl Cpm {
         }
     }
 
-    /// Drops its map and begins another at the robot's place, with the patterns it learned.
+    /// Drops the map and begins another at the robot's place, with the patterns learned so far.
     fn begin_elsewhere(&mut self) -> Standing {
         if let Some(layer) = self.layer.take() {
             self.patterns = layer.patterns().clone();

@@ -4,7 +4,7 @@ use tolman_maps::cpm::{CpMap, MapUpdate, Port, Turn};
 /// when it explains the walks in another way, or merges two places.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Trail {
-    /// Number of places visited on maps that it has given up.
+    /// Number of places visited on maps that the system has given up.
     forgotten: usize,
     /// Starting points from which walks can be retraced on the map.
     bases: Vec<Base>,

@@ -27,9 +27,10 @@ pub struct Walker<B: CpmRobot> {
 /// Memory of a walker between fragments.
 #[derive(Clone, Debug, Default)]
 struct Memory {
-    /// Branches of its present place, rad, counter-clockwise from the port of entry.
+    /// Branches of the robot's present place, rad, counter-clockwise from the port of entry.
     branches: Vec<f64>,
-    /// Positions after each stride since it set off, in the frame in which it began.
+    /// Positions after each stride since the robot set off, m, in the frame in which the walk
+    /// began.
     trail: Vec<Point>,
     observations: u32,
     departed_us: u64,
@@ -105,7 +106,7 @@ pub struct Prospect {
 /// Action when a place comes into sight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BeforePlace {
-    /// Enter it.
+    /// Enter the place.
     Enter,
     /// Turn round, and go to the place at the other end of the fragment.
     TurnRound,
@@ -113,10 +114,10 @@ pub enum BeforePlace {
 
 /// A walk along a fragment in progress.
 struct Course {
-    /// Middle of the place from which it leads; `None` in mid-fragment, or if the place was left
+    /// Middle of the place where the walk began; `None` in mid-fragment, or if the place was left
     /// long ago.
     origin: Option<Point>,
-    /// Distance driven when it began, m.
+    /// Distance driven when the walk began, m.
     begun: f64,
     /// Landmark of the place behind, until it is no longer sensed.
     left: Option<Landmark>,
@@ -211,7 +212,7 @@ const ROUND: f64 = 2.0;
 /// Nearer to it, its posts are in the way.
 const TRIMMED: f64 = 0.8;
 
-/// Distance before its middle at which a junction comes into sight, in corridor widths.
+/// Distance before a junction's middle at which the junction comes into sight, in corridor widths.
 const IN_SIGHT: f64 = 0.5;
 
 /// Number of strides on a known way per stride that is not skipped. Two walks along one fragment
@@ -378,7 +379,7 @@ impl<B: CpmRobot> Walker<B> {
         Ok(self.look()?.profile)
     }
 
-    /// Returns its configuration.
+    /// Returns the walker's configuration.
     pub const fn config(&self) -> &WalkerConfig {
         &self.config
     }

@@ -5,9 +5,9 @@ use tolman_control::epuck::{
 /// Measures of an e-puck that are needed to drive it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EpuckMeasures {
-    /// Conversion of its proximity sensors' raw values to distances.
+    /// Conversion of the proximity sensors' raw values to distances.
     pub curve: RangeCurve,
-    /// Length of its time step, µs.
+    /// Length of the e-puck's time step, µs.
     pub step_us: u64,
     /// Maximum speed of a wheel, rad/s.
     pub most_wheel_speed: f64,

@@ -37,7 +37,7 @@ impl Whereabouts {
         self.at_places.last().copied()
     }
 
-    /// Returns whether it is sure of its final belief.
+    /// Returns whether the robot is sure of its final belief.
     #[must_use]
     pub fn is_sure(&self) -> bool {
         self.here().is_some_and(|here| here.probability > SURE)

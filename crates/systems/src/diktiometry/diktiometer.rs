@@ -20,12 +20,11 @@ use super::{
 /// Each action is one control routine, from a place to the next. Its tasks:
 ///
 /// - **Explore**: the [`Planner`](super::Planner)'s walk. It ends when nothing is left to try at
-///   any place that can be reached on the map, no two places may be one, and the map does not
-///   contradict itself. It gives up a map that has contradicted itself for 20 moves. It also
+///   any place that can be reached on the map. Moreover, no two places may be one, and the map must
+///   not contradict itself. It gives up a map that has contradicted itself for 20 moves. It also
 ///   gives up a map that was not folded for five moves per place, at most 300 moves. If the robot
-///   was carried elsewhere, so that the view differs from that at its last stop, it begins
-///   another map there. By the paper's rule of matching, or on a map that it was given, it gives
-///   up.
+///   was carried elsewhere, so that the view differs from that at its last stop, it begins another
+///   map there. By the paper's rule of matching, or on a map that it was given, it gives up.
 /// - **Reach** a place: the map's plan, made again after every routine. It gives up if the map
 ///   knows no way.
 /// - **Reach** a landmark: the plan to the place where it was sensed last. Until it was sensed, the
@@ -45,7 +44,8 @@ pub struct Diktiometer<E> {
     config: DiktiometerConfig,
     eye: E,
     guide: Guide,
-    /// Places that it visited, by their ids at that time; `None` for places of a dropped map.
+    /// Places that the robot visited, by their ids at that time; `None` for places of a dropped
+    /// map.
     visited: Vec<Option<PlaceId>>,
 }
 
@@ -126,7 +126,7 @@ impl<E> Diktiometer<E> {
         }
     }
 
-    /// Returns its configuration.
+    /// Returns the system's configuration.
     #[must_use]
     pub const fn config(&self) -> &DiktiometerConfig {
         &self.config

@@ -20,7 +20,7 @@ pub(super) struct Guide {
     under_way: Option<Direction>,
     planner: Planner,
     walk: ChaCha8Rng,
-    /// Place where each landmark was sensed last, by its id at that time.
+    /// Place where each landmark was sensed last, by the place's id at that time.
     landmarks: BTreeMap<Landmark, PlaceId>,
     /// Number of moves so far.
     moves: u32,

@@ -19,7 +19,7 @@ pub struct Planner {
 pub struct PlannedMove {
     /// Direction to go in.
     pub direction: Direction,
-    /// Reason it was chosen.
+    /// Reason why the direction was chosen.
     pub reason: Reason,
 }
 
@@ -28,7 +28,7 @@ pub struct PlannedMove {
 pub enum Reason {
     /// A random move.
     Walk,
-    /// This script, whose first action it is.
+    /// First action of this script, which begins here.
     Advice(Opportunity),
     /// The script in progress.
     Script,

@@ -24,7 +24,7 @@ pub(super) struct RouteFinder {
     exits: [bool; 4],
     /// Actions that differed from the map.
     shut: BTreeSet<(PlaceId, Action)>,
-    /// Number of moves since it knew where it was.
+    /// Number of moves since the rover last knew its place.
     unsure: usize,
     walk: ChaCha8Rng,
 }

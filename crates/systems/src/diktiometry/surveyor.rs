@@ -106,7 +106,8 @@ where
         }
     }
 
-    /// Drives back from `along` the way to `middle`, m.
+    /// Drives backward against `direction`, from `along` to `middle`. Both are positions on the
+    /// way, m.
     fn back_up(
         &mut self,
         direction: Direction,

@@ -37,7 +37,7 @@ struct Scripted {
     at: Point,
     heading: f64,
     ring: Ring,
-    /// Factor by which its wheels overrate each way.
+    /// Factor by which the rover's wheels overrate each way.
     scale: f64,
     sensing: LaserSensing,
 }

@@ -61,7 +61,8 @@ impl<E> Wayfinder<E> {
         }
     }
 
-    /// Returns its belief about its place; `None` before it stands at a place for the first time.
+    /// Returns the belief about the robot's place; `None` before the robot stands at a place for
+    /// the first time.
     #[must_use]
     pub const fn place_belief(&self) -> Option<&PlaceBelief> {
         self.finder.belief()

@@ -21,7 +21,7 @@ pub(super) struct Lane {
     pub(super) half_width: f64,
     /// Distance from the place to the lane's end, m.
     pub(super) reach: f64,
-    /// Minimum distance of its target from any other place, m.
+    /// Minimum distance of the lane's end from any other place, m.
     pub(super) apart: f64,
 }
 

@@ -16,7 +16,7 @@ const FILES: MapFiles = MapFiles { system: "gngslam" };
 pub struct MapFile {
     /// Maze, robot and seed of its origin.
     pub origin: Origin,
-    /// Configuration with which it was learned.
+    /// Configuration with which the map was learned.
     pub config: OnlineSlamConfig,
     /// The map, on which a robot may stand anywhere.
     pub graph: PlaceGraph,

@@ -18,9 +18,9 @@ use crate::stream;
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct OfflineSlamConfig {
-    /// Parameters of its wandering.
+    /// Parameters of the system's wandering.
     pub wanderer: WandererConfig,
-    /// Number of records it learns from, at least 2. Paper: 1006.
+    /// Number of records from which the system learns, at least 2. Paper: 1006.
     pub records: usize,
     /// Features that describe a place.
     pub features: FeatureChoice,
@@ -105,7 +105,7 @@ impl OfflineSlam {
         }
     }
 
-    /// Returns the map; `None` before it has all its records.
+    /// Returns the map; `None` before the system has all its records.
     #[must_use]
     pub fn learned(&self) -> Option<&PlaceMap> {
         self.learned.as_ref().map(|learned| &learned.map)

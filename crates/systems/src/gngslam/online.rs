@@ -28,7 +28,7 @@ pub struct OnlineSlamConfig {
     pub drive: UntilNearConfig,
     /// Maximum turn before the robot looks again, rad.
     pub turn_piece: f64,
-    /// Number of looks round the first place, before it drives.
+    /// Number of looks round the first place, before the robot drives.
     pub first_looks: u32,
     /// Choice of the next goal while exploring.
     pub explore: ExplorationPolicy,
@@ -42,8 +42,8 @@ pub struct OnlineSlamConfig {
     pub patience: u32,
     /// Distance within which the robot is at a place, m.
     pub arrival: f64,
-    /// Factor of its limits on ways that it has driven before, 0 to 1: it fits through there,
-    /// however near the walls are.
+    /// Factor on the limits of a leg along ways that the robot has driven before, 0 to 1. It fits
+    /// through there, however near the walls are.
     pub give_way: f64,
     /// Parameters of mapping.
     pub map: PlaceGraphConfig,
@@ -142,7 +142,7 @@ pub struct OnlineSlam {
     quiet: u32,
     /// Positions where landmarks were sensed.
     sightings: Vec<LandmarkSighting>,
-    /// Places where it came back and did not sense the goal.
+    /// Places where the robot came back and did not sense the goal.
     tried: Vec<u32>,
     route: Option<Route>,
     obstacles: Obstacles,
@@ -150,11 +150,12 @@ pub struct OnlineSlam {
     frontier: Option<Frontier>,
     /// Whether no frontier is left, as far as the robot knows.
     ends_here: bool,
-    /// Points that it reached, or could not reach, in the map's frame.
+    /// Points that the robot reached, or could not reach, m, in the map's frame.
     explored: Vec<Point>,
-    /// Whether it touched something in the action under way.
+    /// Whether the robot touched something in the action in progress.
     has_touched: bool,
-    /// Number of times that it may forget them and go there again.
+    /// Number of times that the system may still forget the points in `explored` and go there
+    /// again.
     retries: u32,
 }
 
@@ -162,7 +163,7 @@ pub struct OnlineSlam {
 #[derive(Clone, Copy, Debug)]
 struct Frontier {
     target: Target,
-    /// Number of pieces of the way after which it is given up.
+    /// Remaining number of pieces of the way before the robot gives the point up.
     patience: u32,
 }
 
@@ -178,7 +179,7 @@ const BLOCKED: u32 = 20;
 /// Extra distance that a lane extends beyond a place, m.
 const BEYOND: f64 = 0.05;
 
-/// Number of time steps that it drives away from something it has touched.
+/// Number of time steps that the robot drives away from something that it has touched.
 const STEPS_FREE: u32 = 4;
 
 /// Minimum random turn, rad: what is near ahead is also near at smaller angles.
@@ -275,7 +276,7 @@ impl OnlineSlam {
         self.config.explore == ExplorationPolicy::ToTheUnknown && self.looks_round == 0
     }
 
-    /// Returns whether it has found no place for many looks, and has no frontier left.
+    /// Returns whether the system has found no place for many looks, and no frontier is left.
     fn has_explored(&self) -> bool {
         let is_quiet = self.quiet >= self.config.quiet_looks;
         is_quiet && (self.ends_here || self.config.explore == ExplorationPolicy::ByChance)

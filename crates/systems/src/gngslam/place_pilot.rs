@@ -15,7 +15,7 @@ use super::{Wanderer, WandererError};
 pub struct PlacePilotConfig {
     /// Parameters of driving between two looks.
     pub drive: UntilNearConfig,
-    /// Distance by odometry within which it has reached a node, m.
+    /// Distance by odometry within which the robot has reached a node, m.
     pub arrival: f64,
     /// Angle by which the pilot turns to go round an obstacle, rad.
     pub round: f64,
@@ -61,9 +61,9 @@ pub struct PlacePilot<'a> {
     config: PlacePilotConfig,
     driver: UntilNear,
     goal: UnitId,
-    /// Side on which it passes the next obstacle: 1 for left.
+    /// Side on which the robot passes the next obstacle: 1 for left.
     side: f64,
-    /// Nodes that it came near to since the drive began.
+    /// Nodes to which the robot came near since the drive began.
     passed: Vec<UnitId>,
 }
 

@@ -55,8 +55,8 @@ impl Obstacles {
         Arcs::new(poses.len(), &links.collect::<Vec<_>>())
     }
 
-    /// Returns the target whose place has the shortest way from the place nearest to `here`, the
-    /// first of equals; `None` if no way leads to any. O(links log places).
+    /// Returns the target whose place has the shortest way from the place nearest to `here`. The
+    /// first of equals counts. Returns `None` if no way leads to any target. O(links log places).
     pub(super) fn nearest(
         &self,
         map: &PlaceGraph,

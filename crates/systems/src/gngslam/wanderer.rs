@@ -88,7 +88,7 @@ pub struct Wanderer {
     odometry: Pose,
 }
 
-/// Number of time steps that it backs off if it is wedged.
+/// Number of time steps that a wedged robot backs off.
 const BACK_OFF: u32 = 4;
 
 impl Wanderer {

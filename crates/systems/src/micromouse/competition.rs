@@ -53,7 +53,7 @@ pub struct SpeedRunExploration {
     /// that of the [`Brief`]. The mouse then turns clockwise to the next side from which a run
     /// leads to a goal.
     pub certificate: SpeedRunCertificate,
-    /// Moves of that run, each with its beginning and its duration.
+    /// Moves of the found run, each with its beginning and its duration.
     pub run: Vec<RunLeg>,
     /// Verdict of the checker, which sees only the walls that the mouse knows.
     pub verdict: Result<(), SpeedRunCertificateError>,
@@ -62,7 +62,7 @@ pub struct SpeedRunExploration {
 /// A move of a speed run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RunLeg {
-    /// Step, with its beginning.
+    /// Move, with the state of the mouse before it.
     pub step: RunStep,
     /// Duration of the move, ms.
     pub time_ms: u16,
@@ -84,7 +84,7 @@ pub enum ExploreError {
     /// The mouse knows no way to a goal.
     #[error("the mouse's map has no way from {at} to a goal: open a wall")]
     NoWay {
-        /// Cell where it is.
+        /// Cell where the mouse is.
         at: Cell,
     },
 }

@@ -17,7 +17,7 @@ const FILES: MapFiles = MapFiles { system: "mslst" };
 pub struct MapFile {
     /// Maze, robot and seed of its origin.
     pub origin: Origin,
-    /// Configuration with which it was learned.
+    /// Configuration with which the map was learned.
     pub config: MslstConfig,
     /// Map that the robot learned.
     pub learned: Learned,
@@ -67,7 +67,7 @@ struct SavedNode {
     /// True position of the robot, m, if it was recorded; for pictures only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     made_at: Option<[f64; 2]>,
-    /// Action of Phase II that made it; `None` if it was not recorded.
+    /// Action of Phase II that made the node; `None` if it was not recorded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     made_by: Option<u32>,
 }

@@ -29,9 +29,9 @@ pub struct Navigator {
     state: Option<u32>,
     /// Actions that failed since the robot last moved.
     failed: Vec<Direction>,
-    /// Its random actions are those of Avoid.
+    /// Avoid, which makes the random actions.
     wander: AvoidBrain,
-    /// Number of random actions still to come after it believed to have arrived.
+    /// Number of random actions still to come after the robot believed that it had arrived.
     doubts_left: u32,
     situation: NavigationState,
 }
@@ -47,7 +47,7 @@ pub enum NavigationState {
     Doubtful,
     /// The robot is at a node and follows the path from there.
     OnPath {
-        /// Its possible places.
+        /// Possible places of the robot.
         belief: Localization,
         /// Actions to the destination, the next one first.
         path: Vec<Direction>,
@@ -76,7 +76,7 @@ impl Navigator {
         &self.map
     }
 
-    /// Returns its state.
+    /// Returns the navigator's state.
     #[must_use]
     pub const fn situation(&self) -> &NavigationState {
         &self.situation

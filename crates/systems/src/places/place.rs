@@ -5,7 +5,7 @@ use tolman_robot::{Ring, Scan};
 pub struct SitePlace {
     /// Kind of place.
     pub kind: SiteKind,
-    /// Number of the keyframe in its middle.
+    /// Number of the keyframe in the middle of the place.
     pub keyframe: usize,
     /// Number of the place on the map: its own, or that of an earlier place.
     pub id: u32,

@@ -8,9 +8,9 @@ use super::SiteKind;
 /// A place as a robot sees it on arrival, whether or not it has been there before.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Site {
-    /// Number of the keyframe in its middle.
+    /// Number of the keyframe in the middle of the place.
     pub keyframe: usize,
-    /// Middle of the free ground around it, which is the same from all sides.
+    /// Middle of the free ground around the place, which is the same from all sides.
     pub middle: Point,
     /// Kind of place.
     pub kind: SiteKind,
@@ -26,7 +26,7 @@ pub struct Site {
 /// The way from one place to the next by the scans on it. It does not depend on recognized places.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SiteWay {
-    /// The place at its beginning.
+    /// The place at the beginning of the way.
     pub from: Site,
     /// Quarter by which the robot left the place before.
     pub left_by: usize,
@@ -34,9 +34,9 @@ pub struct SiteWay {
     pub moved: Vector,
     /// Length of the robot's way, m.
     pub length: f64,
-    /// Keyframes on the way; the last is that of the place at its end.
+    /// Keyframes on the way. The last one is that of the place `to`.
     pub steps: Vec<SiteStep>,
-    /// The place at its end.
+    /// The place at the end of the way.
     pub to: Site,
 }
 
@@ -45,7 +45,7 @@ pub struct SiteWay {
 pub struct SiteStep {
     /// Pose relative to the keyframe before.
     pub moved: Pose,
-    /// Ranges around it. The first beam looks ahead.
+    /// Ranges around the keyframe. The first beam looks ahead.
     pub around: Scan,
 }
 

@@ -88,7 +88,7 @@ impl Call {
     }
 }
 
-/// Name of the format.
+/// Format of the file, by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 enum Format {
     #[serde(rename = "tolman-unfinished")]

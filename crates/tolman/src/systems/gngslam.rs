@@ -162,7 +162,7 @@ struct Mission {
     system: OnlineSlam,
     /// True position of the robot when each place that it already knows was made, m.
     sites: Vec<Point>,
-    /// True pose of its map's origin in the world.
+    /// True pose of the origin of the system's map in the world.
     world_from_map: Pose,
     config: OnlineSlamConfig,
     /// Default maximum number of time steps.

@@ -38,7 +38,7 @@ pub(crate) struct Devtools {
     profile: PathBuf,
     socket: WebSocket<TcpStream>,
     last_id: u64,
-    /// What happened and was not asked for, oldest first.
+    /// Messages of the browser that answer no request, oldest first.
     events: Vec<Value>,
 }
 

@@ -1,5 +1,6 @@
-//! The pages that the command writes, as a browser shows them: `cargo xtask ci` runs these tests
-//! where chromium is installed, `cargo test -p tolman --test browser -- --ignored` by hand.
+//! The pages that the command writes, as a browser shows them. `cargo xtask ci` runs these tests
+//! where chromium is installed. To run them by hand: `cargo test -p tolman --test browser --
+//! --ignored`.
 
 #![expect(
     clippy::unwrap_used,

@@ -3,8 +3,9 @@
 //! legible.
 //!
 //! `TOLMAN_PAGES=FOLDER cargo test -p tolman --test browser -- --ignored pages_of_folders` looks at
-//! all pages below a folder, such as those of `experiment --all`, or below several, as in `PATH`.
-//! `cargo xtask ci --thorough` names those of the golden runs and of the commands that are shown.
+//! all pages below a folder, such as those of `experiment --all`. It may name several folders, as
+//! `PATH` does. `cargo xtask ci --thorough` names those of the golden runs and of the commands that
+//! are shown.
 
 use std::env;
 use std::path::{Path, PathBuf};

@@ -146,7 +146,7 @@ fn a_run_of_200_000_steps_can_be_used() {
     tab.assert_content();
 }
 
-/// How long frames take to draw, ms.
+/// Durations of drawing a frame, ms.
 struct Frames {
     median: f64,
     slowest: f64,

@@ -18,21 +18,21 @@ pub(crate) struct Tab {
     session: String,
 }
 
-/// Which colours the reader's system has.
+/// Colours that the reader's system prefers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Scheme {
     Light,
     Dark,
 }
 
-/// What a picture of a page looks like.
+/// Properties of the picture of a page.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Look {
-    /// How many colours it has.
+    /// Number of colours in the picture.
     colours: u64,
-    /// The part of it that has its most frequent colour.
+    /// Share of the picture that has its most frequent colour, 0 to 1.
     pub(crate) ground: f64,
-    /// Its mean lightness, 0 to 1.
+    /// Mean lightness of the picture, 0 to 1.
     lightness: f64,
 }
 

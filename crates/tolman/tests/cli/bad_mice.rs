@@ -228,11 +228,11 @@ const BAD_SIMULATORS: [(&str, &str, i32, &str); 17] = [
     ),
 ];
 
-/// What a mouse complains of whose simulator was killed, or left by itself.
+/// Part of the complaint of a mouse whose simulator was killed, or ended by itself.
 const WENT_AWAY: &str = "went away";
-/// Time after which a simulator is killed for whose end its mouse waits.
+/// Time after which a simulator is killed, if its mouse waits for the simulator's end.
 const PATIENCE: Duration = Duration::from_millis(300);
-/// Time after which it is killed if its mouse should have ended by itself.
+/// Time after which a simulator is killed, if its mouse should have ended by itself.
 const LONG_PATIENCE: Duration = Duration::from_secs(20);
 
 /// Starts a mouse with the bad simulator of this number for the `round`-th time.

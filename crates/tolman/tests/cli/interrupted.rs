@@ -13,7 +13,7 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::{CORRIDOR, Ended, command_in, folder, tolman_in};
 
-/// How a program is ended.
+/// Way in which a program is ended.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum End {
     /// By Ctrl-C after this time.
@@ -63,10 +63,11 @@ fn ended(folder: &Path, command: &str, unfinished: &Path, end: End) -> Ended {
 struct Run {
     folder: PathBuf,
     command: String,
-    /// The files that it writes.
+    /// The files that the command writes.
     files: Vec<&'static str>,
     unfinished: PathBuf,
-    /// What it comes to if nobody interrupts it, and how long that takes.
+    /// Exit code, output and files of the command if nobody interrupts it. The field `takes` is its
+    /// duration.
     whole: (Option<i32>, String, Vec<Vec<u8>>),
     takes: Duration,
 }

@@ -7,7 +7,7 @@ use std::process::{Command, Stdio};
 
 use super::{CORRIDOR, folder, tolman_in};
 
-/// What stands beside the picture of a run.
+/// Word that stands beside the picture of a run.
 const SHOWN: &[u8] = b"heading";
 
 /// Returns the exit code of the command, and what it drew on a terminal until a key stopped it.

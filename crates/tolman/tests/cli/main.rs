@@ -39,7 +39,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-/// How the command ended.
+/// Exit code and output of a command that has ended.
 #[derive(Debug)]
 struct Ended {
     code: Option<i32>,

@@ -22,7 +22,7 @@ const DOUBLINGS: u32 = 3;
 /// edges.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct ViewIndex {
-    /// Whose they are.
+    /// Place of each view, by the view's number.
     places: Vec<PlaceId>,
     columns: ColumnIndex,
     triangles: TriangleIndex,

@@ -92,7 +92,8 @@ pub(super) fn find(
 /// Returns the matcher that applies to a candidate.
 ///
 /// The paper asks for a consistent view as well. Here two kinds of places may look new, and their
-/// view set grows: an expected place at its expected position, and a place without others near.
+/// view set grows. One is an expected place at its expected position, the other a place without
+/// others near.
 fn applicable(
     candidate: &Candidate,
     situation: &Situation<'_>,

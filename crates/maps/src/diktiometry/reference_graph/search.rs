@@ -12,9 +12,9 @@ use crate::diktiometry::{FrameId, SearchLimits};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reached {
     pub(crate) frame: FrameId,
-    /// Position of its origin in the frame where the search began, m.
+    /// Position of the frame's origin in the frame where the search began, m.
     pub(crate) position: PointBox,
-    /// Number of relations followed to it.
+    /// Number of relations followed to the frame.
     pub(crate) hops: u32,
 }
 

@@ -58,8 +58,8 @@ fn scans() -> impl Strategy<Value = Vec<(Point, Heading, Scan)>> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(8))]
 
-    /// Beams that ended and passed are counted in each cell, and distances are those of the walls
-    /// that stand then, whatever walls have come and gone.
+    /// Beams that ended and passed are counted in each cell. Distances are to the walls that stand
+    /// now, whatever walls have come and gone.
     #[test]
     fn a_grid_counts_beams_and_knows_how_far_walls_are(scans in scans()) {
         let mut grid = WallGrid::default();

@@ -1,4 +1,5 @@
-//! What CPM learns of mazes whose corridors all look different, and where it finds itself there.
+//! Tests the maps that CPM learns of mazes whose corridors all look different, and its localization
+//! there.
 
 use alloc::collections::{BTreeMap, BTreeSet, VecDeque};
 

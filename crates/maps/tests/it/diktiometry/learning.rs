@@ -1,5 +1,5 @@
-//! What is learned of worlds in which every place looks the same, of worlds that are painted, and
-//! after a kidnapping.
+//! Tests the maps that are learned of worlds in which every place looks the same, of painted
+//! worlds, and after a kidnapping.
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;

@@ -1,4 +1,4 @@
-//! What holds of every observer, whatever the robot does and whatever becomes of the advice.
+//! Properties of every observer, whatever the robot does and whatever becomes of the advice.
 
 use proptest::prelude::*;
 use tolman_geom::{Interval, Point, PointBox, PoseBox};

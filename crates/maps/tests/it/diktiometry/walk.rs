@@ -76,19 +76,19 @@ pub(crate) fn blocks(side: u16, walls: f64, rng: &mut impl Rng) -> Maze {
 pub(crate) struct Walk {
     pub(crate) robot: AbstractRobot,
     pub(crate) observer: Observer,
-    /// The true place of every move's end, and what the observer called it then.
+    /// Place where each move ended: its true number, and the observer's id of it at that time.
     pub(crate) log: Vec<(u32, PlaceId)>,
     sees: bool,
 }
 
-/// What the map is worth.
+/// Quality of the map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Score {
     pub(crate) purity: f64,
     pub(crate) places: usize,
     pub(crate) visited: usize,
     pub(crate) link_precision: f64,
-    /// Of the links that were really taken.
+    /// Share of the links that were really taken which the map has, 0 to 1.
     pub(crate) link_recall: f64,
 }
 

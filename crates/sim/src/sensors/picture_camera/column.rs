@@ -14,7 +14,7 @@ pub(super) struct Column<'a> {
     /// Direction of view, of length 1 along the camera's axis, so that depths are distances from
     /// the picture's plane.
     direction: Vector,
-    /// The walls it meets, the nearest first.
+    /// The walls that the column meets, the nearest first.
     met: Vec<Met<'a>>,
 }
 
@@ -33,7 +33,7 @@ struct Met<'a> {
 pub(super) struct Pixel {
     /// Red, green and blue, 255 at full light, or more.
     pub(super) colour: [f64; 3],
-    /// Share of its own light, 0 to 1.
+    /// Share of the colour that glows by itself, 0 to 1.
     pub(super) glow: f64,
 }
 

@@ -25,7 +25,7 @@ pub struct Light {
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LightDrift {
-    /// Number of pictures over which the light forgets how it was.
+    /// Number of pictures over which the light forgets its earlier deviations.
     pub pictures: f64,
     /// Standard deviation of the brightness, as a share.
     pub brightness_sd: f64,

@@ -15,7 +15,7 @@ use crate::micromouse::Until;
 /// Result of a game.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Played {
-    /// Score of the run it made, in half-steps, without the tenth of all movements.
+    /// Score of the run that the mouse made, in half-steps, without the tenth of all movements.
     pub run: f32,
     /// Score of the best run that is possible with the known walls.
     pub possible: f32,

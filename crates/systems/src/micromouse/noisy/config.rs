@@ -11,7 +11,7 @@ pub struct NoisyMouseConfig {
     pub localization: PoseSource,
     /// Estimate of the motion in a time step.
     pub motion: MotionSource,
-    /// Noise that its filter assumes.
+    /// Noise that the mouse's filter assumes.
     pub filter: PoseFilterConfig,
     /// Distance between the middles of two cells, m. > 0.
     pub pitch: f64,

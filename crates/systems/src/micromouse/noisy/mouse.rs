@@ -21,11 +21,11 @@ impl<R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps + Rolls>> NoisyBo
 /// Result of a noisy mouse's step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoisyNext {
-    /// It made one step of the paper's rules.
+    /// The mouse made one step of the paper's rules.
     Stepped,
-    /// It did nothing, because it believes that it is done.
+    /// The mouse did nothing, because it believes that it is done.
     Done,
-    /// It did nothing, because it believes that no way leads to the goal.
+    /// The mouse did nothing, because it believes that no way leads to the goal.
     Stuck,
 }
 
@@ -38,8 +38,8 @@ pub struct NoisyMouse {
     /// Pose by odometry alone.
     pub(super) reckoned: Pose,
     pub(super) belief: WallBelief<SIDE>,
-    /// Whether it was put down anywhere and has not localized yet. It then drives by odometry from
-    /// its likeliest place, and learns no walls.
+    /// Whether the mouse was put down anywhere and has not localized yet. Then it drives by
+    /// odometry from its likeliest place, and learns no walls.
     pub(super) is_lost: bool,
     explorer: MoveExplorer<SIDE>,
     pub(super) rng: ChaCha8Rng,
@@ -282,8 +282,8 @@ impl NoisyMouse {
         Ok(())
     }
 
-    /// Takes in a bump while driving to `side`: it proves the wall of its cell there, unless that
-    /// wall would be too near or too far.
+    /// Takes in a bump while driving to `side`. The bump proves the wall of the mouse's cell on
+    /// that side, unless that wall would be too near or too far.
     fn bumped(&mut self, side: Direction) {
         if self.is_lost {
             return;

@@ -14,10 +14,10 @@ use crate::micromouse::{SIDE, Search};
 /// Belief of a mouse that was put down anywhere in the maze.
 #[derive(Clone, Debug)]
 pub(super) struct Lost {
-    /// Its possible poses; the compass gives its heading.
+    /// Possible poses of the mouse. The compass gives its heading.
     pub(super) poses: PoseSet<SIDE>,
     looks: Direction,
-    /// Middle of its cell, m, in a frame that may be off by whole cells.
+    /// Middle of the mouse's cell, m, in a frame that may be off by whole cells.
     middle: Point,
 }
 
@@ -43,7 +43,7 @@ impl Lost {
 }
 
 impl<S: Search> MazeMouse<S> {
-    /// Forgets its place: the mouse may be in any cell where it has been.
+    /// Forgets the mouse's place: the mouse may be in any cell where it has been.
     pub(super) fn lose_itself(&mut self) -> Standing {
         let looks = Direction::North;
         let cells = self.brief.grid.cells();

@@ -39,11 +39,11 @@ pub struct MazeMouse<S> {
     pub(super) walls: WallMap<SIDE>,
     pub(super) at: Cell,
     pub(super) pilot: Pilot,
-    /// Its last task.
+    /// Last task of the mouse.
     task: Option<Task>,
-    /// Sides by which it leaves the next cells, the next one last.
+    /// Sides by which the mouse leaves the next cells, the next one last.
     pub(super) route: Vec<Direction>,
-    /// Belief about its place after it was put down, until it has localized.
+    /// Belief about the mouse's place after it was put down, until it has localized.
     pub(super) lost: Option<Lost>,
 }
 
@@ -112,13 +112,13 @@ impl<S: Search> MazeMouse<S> {
         })
     }
 
-    /// Returns the walls it knows.
+    /// Returns the walls that the mouse knows.
     #[must_use]
     pub const fn walls(&self) -> &WallMap<SIDE> {
         &self.walls
     }
 
-    /// Returns its believed pose, in the frame of the maze.
+    /// Returns the mouse's believed pose, in the frame of the maze.
     #[must_use]
     pub const fn pose(&self) -> Pose {
         self.pilot.pose()

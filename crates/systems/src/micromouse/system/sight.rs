@@ -20,13 +20,13 @@ pub struct CellSight {
 /// A beam that looks along the grid.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Beam {
-    /// Side to which it looks.
+    /// Side to which the beam looks.
     pub(super) side: Direction,
     /// Range in that direction, m.
     pub(super) along: f64,
-    /// Whether it met something.
+    /// Whether the beam met something.
     pub(super) met: bool,
-    /// Its angle off the grid: metres to the left of `side` per metre along it.
+    /// Angle of the beam off the grid: metres to the left of `side` per metre along it.
     slope: f64,
     /// Origin of the beam, m to the left of the middle of its row of cells.
     aside: f64,
@@ -35,7 +35,8 @@ pub(super) struct Beam {
 /// Cosine of 8°, the greatest angle off the grid: beams beyond it meet walls at the side.
 const STRAIGHT: f64 = 0.99;
 
-/// Distance from the middle of its row at which a beam may meet a post, as a share of the pitch.
+/// Distance from the middle of the beam's row at which the beam may meet a post, as a share of the
+/// pitch.
 const INTERIOR: f64 = 0.35;
 
 /// Maximum distance of a beam's end from a wall for the beam to show that wall, as a share of the

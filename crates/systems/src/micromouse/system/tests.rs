@@ -71,7 +71,7 @@ struct Floor {
     ring: Ring,
     /// The share of the way rolled that the robot does not make.
     slip: f64,
-    /// Its clock, and whether its sensors drop out every third time step.
+    /// Number of time steps so far. If `drops_out`, the sensors drop out every third time step.
     steps: u32,
     drops_out: bool,
     sensed: Sensed,

@@ -14,13 +14,13 @@ pub struct BetterConfig {
     pub odometry_sd: f64,
     /// Standard deviation of the sideways push by a wall in a time step with a touch, m.
     pub slide_sd: f64,
-    /// Errors of its motors.
+    /// Errors of the robot's motors.
     pub motors: Motors,
     /// Width of a corridor from wall to wall, m, for which the layers are made.
     pub corridor_width: f64,
     /// Length of an action, m.
     pub action_way: f64,
-    /// Standard deviation of the distance of an action, as a share of it.
+    /// Standard deviation of the distance of an action, as a share of that distance.
     pub action_sd: f64,
     /// Range below which the layers stop, m.
     pub buffer: f64,

@@ -20,17 +20,17 @@ use crate::{Brain, Doing, RolledStep};
 pub struct BetterExplorer {
     config: BetterConfig,
     map: ScanMap,
-    /// Known errors of its laser.
+    /// Known errors of the robot's laser.
     beams: StuckBeams,
     reckoning: Reckoning,
     /// Actions that failed since the robot last moved.
     failed: Vec<Direction>,
-    /// Its last choice.
+    /// Last action that was chosen; `None` before the first.
     last: Option<Direction>,
     plan: Plan,
-    /// Its believed position after each action.
+    /// Believed position of the robot after each action, m.
     trail: Vec<Point>,
-    /// Readings when its last action ended, until it sets off.
+    /// Readings when the last action ended, until the robot sets off.
     stop: Option<Stop>,
     /// Number of dropped maps because the robot was lifted.
     dropped: u32,
@@ -48,14 +48,14 @@ enum Plan {
     Return(Direction),
     /// A gap is left, or the way back, but no action seems to lead nearer.
     Stuck,
-    /// No gap is left, and it is back.
+    /// No gap is left, and the robot is back.
     Finished,
-    /// No gap is left, and it does not come back.
+    /// No gap is left, and the robot does not come back.
     Strayed,
 }
 
-/// Probability that its map is right if something contradicts it, and if nothing does: by 250 maps
-/// of the arena.
+/// Probability that the map is right if something contradicts it; [`SURE`] if nothing does. Both
+/// are from 250 maps of the arena.
 const DOUBTFUL: f64 = 0.01;
 const SURE: f64 = 0.98;
 /// Number of dropped maps above which contradicting walls are no sign of a lift: walls of rooms may

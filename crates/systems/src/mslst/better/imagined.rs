@@ -46,7 +46,7 @@ impl<'a> Imagined<'a> {
         }
     }
 
-    /// Puts it somewhere.
+    /// Puts the imagined robot at `pose`.
     pub(super) fn put(&mut self, pose: Pose) {
         self.pose = pose;
         self.steps = 0;

@@ -29,7 +29,7 @@ const MOST_SWEEPS: usize = 200;
 const ABOUT: f64 = 0.25;
 
 impl BetterMap {
-    /// Computes where its robot can stand and the costs of the ways to the goal.
+    /// Computes where the robot can stand and the costs of the ways to the goal.
     ///
     /// # Errors
     /// If the layers cannot read the ring.

@@ -20,7 +20,7 @@ use crate::{Brain, Doing, RolledStep};
 #[derive(Clone, Debug)]
 pub struct BetterNavigator {
     maps: ChangedMap,
-    /// Known errors of its laser.
+    /// Known errors of the robot's laser.
     beams: StuckBeams,
     belief: StandpointBelief,
     reckoning: Reckoning,
@@ -33,9 +33,9 @@ pub struct BetterNavigator {
 
 /// Least probability at which a standpoint counts.
 const NO_SAY: f64 = 1e-4;
-/// Minimum probability of its place at which it states the place.
+/// Minimum probability of the robot's place at which the system states the place.
 const SURE_TO_SAY: f64 = 0.99;
-/// Minimum probability of its place at which it judges new walls there.
+/// Minimum probability of the robot's place at which the system judges new walls there.
 const SURE: f64 = 0.9;
 
 impl BetterNavigator {
@@ -98,7 +98,7 @@ impl BetterNavigator {
         self.belief.certainty(&map.standpoints, within)
     }
 
-    /// Returns whether its likeliest standpoint is at a place of its map.
+    /// Returns whether the likeliest standpoint is at a place of the map.
     fn is_at_a_place(&self) -> bool {
         let corridors = self.maps.learned().corridors();
         self.likeliest()

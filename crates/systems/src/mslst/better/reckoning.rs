@@ -15,7 +15,8 @@ pub(super) struct Reckoning {
     variance: Vector,
     /// Displacement of the action in progress, by odometry.
     rolled: Vector,
-    /// Number of its time steps with odometry that leads on, and of those without odometry.
+    /// Number of the action's time steps with odometry that leads on. The next field counts those
+    /// without odometry.
     heard: u32,
     unheard: u32,
 }

@@ -21,7 +21,7 @@ pub(super) struct WallsKnown {
 /// Knowledge of a mouse about one side.
 #[derive(Clone, Copy, Debug)]
 struct SideKnown {
-    /// Step at which it was first seen.
+    /// Step at which the mouse first saw the side.
     since: u32,
     stands: bool,
 }

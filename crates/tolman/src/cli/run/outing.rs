@@ -63,7 +63,7 @@ pub(in crate::cli) struct Name<'a> {
     pub(in crate::cli) word: &'static str,
     /// Name in tables and titles.
     pub(in crate::cli) title: &'static str,
-    /// Positions of its map's nodes, by id; empty without a map.
+    /// Positions of the nodes of the system's map, by id; empty without a map.
     pub(in crate::cli) nodes: &'a [Point],
 }
 

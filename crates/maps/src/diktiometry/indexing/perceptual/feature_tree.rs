@@ -7,7 +7,7 @@ pub(super) struct Feature {
     pub(super) values: Vec<f64>,
     /// Number of the view.
     pub(super) view: u32,
-    /// Number of its column, or of its first column.
+    /// Number of the feature's column, or of its first column.
     pub(super) column: u32,
 }
 
