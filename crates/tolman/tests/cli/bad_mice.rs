@@ -54,8 +54,8 @@ fn marked(mark: &str) -> Vec<PathBuf> {
     found
 }
 
-/// Time in which all processes have to be gone. A mouse ends after its decision, which takes seconds
-/// on a busy machine.
+/// Time in which all processes have to be gone. A mouse ends after its decision, which takes
+/// seconds on a busy machine.
 const LONGEST_END: Duration = Duration::from_secs(60);
 
 #[track_caller]
