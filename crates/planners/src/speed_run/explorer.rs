@@ -35,10 +35,10 @@ pub enum ExploreStage {
 pub enum Decision {
     /// Drive one cell in this direction, and look at the walls there.
     Drive(Direction),
-    /// The mouse is at the start, was at a goal, and no run is faster than the known one, whatever
-    /// the unknown walls are. Its duration:
+    /// The mouse is at the start and was at a goal. No run is faster than the known one, whatever
+    /// the unknown walls are.
     Finished {
-        /// Duration of the run, ms.
+        /// Duration of the known run, ms.
         run_ms: u16,
     },
     /// No way leads to a goal, or the walls around the mouse are not known.
