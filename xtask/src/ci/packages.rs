@@ -92,7 +92,8 @@ fn unpacked(name: &str, packages: &[Package]) -> Result<PathBuf> {
     for package in packages {
         let file = format!("package/{}.crate", package.stem());
         let mut unpack = Command::new("tar");
-        unpack.arg("-xzf").arg(target_folder()?.join(file));
+        // Packed files have one time for all, by which cargo takes changed ones for compiled.
+        unpack.arg("-xzmf").arg(target_folder()?.join(file));
         succeed(unpack.arg("-C").arg(&folder))?;
     }
     fs::write(folder.join("Cargo.toml"), manifest(packages)?)?;
