@@ -44,9 +44,9 @@ pub struct BetterExplorer {
 enum Plan {
     /// Go to a gap.
     Go(Direction),
-    /// No gap is left: go back to where the map begins.
-    Return(Direction),
-    /// A gap is left, or the way back, but no action seems to lead nearer.
+    /// No gap is left: go back to where the map begins; `None` if no action seems to lead nearer.
+    Return(Option<Direction>),
+    /// A gap is left, but no action seems to lead nearer.
     Stuck,
     /// No gap is left, and the robot is back.
     Finished,
@@ -63,8 +63,8 @@ const SURE: f64 = 0.98;
 const MOST_DROPPED: u32 = 3;
 /// Distance from where the map begins at which the robot is back, as a share of an action's way.
 const BACK: f64 = 0.6;
-/// Number of actions in which the robot has to be back, for each action of the shortest way, and
-/// for the last piece of it.
+/// Maximum number of actions until the robot is back: for each action of the shortest way, and in
+/// addition.
 const MOST_HOMEWARD: [f64; 2] = [3.0, 20.0];
 /// Cost of a quarter turn, as a distance, m.
 const TURN: f64 = 0.35;
@@ -177,15 +177,14 @@ impl BetterExplorer {
         let Some(way) = clearings.way_to(self.map.position(), Point::origin()) else {
             return Plan::Strayed;
         };
-        let [each, last] = MOST_HOMEWARD;
+        let [each, more] = MOST_HOMEWARD;
         let left = way.metres(self.map.position()).unwrap_or(0.0) / self.config.action_way;
-        let homeward = self.homeward.unwrap_or(last + each * left);
+        let homeward = self.homeward.unwrap_or(more + each * left);
         self.homeward = Some(homeward - 1.0);
         if homeward < 0.0 {
             return Plan::Strayed;
         }
-        let action = self.towards(&clearings, &way, scan, heading);
-        action.map_or(Plan::Stuck, Plan::Return)
+        Plan::Return(self.towards(&clearings, &way, scan, heading))
     }
 
     /// Returns whether the robot is where its map begins.
@@ -326,8 +325,10 @@ impl Mapper for BetterExplorer {
 impl Brain for BetterExplorer {
     fn choose(&mut self, rng: &mut dyn Rng) -> Direction {
         match self.plan {
-            Plan::Go(action) | Plan::Return(action) => action,
-            Plan::Stuck | Plan::Finished | Plan::Strayed => Direction::ALL[rng.random_range(0..4)],
+            Plan::Go(action) | Plan::Return(Some(action)) => action,
+            Plan::Return(None) | Plan::Stuck | Plan::Finished | Plan::Strayed => {
+                Direction::ALL[rng.random_range(0..4)]
+            }
         }
     }
 
