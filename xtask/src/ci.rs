@@ -143,16 +143,16 @@ pub(crate) fn run(keep_going: bool, thorough: bool, names: &[String]) -> Result<
 
 /// Returns the steps to run.
 fn chosen(thorough: bool, names: &[String]) -> Result<Vec<&'static Step>> {
-    let long = if thorough { THOROUGH } else { &[] };
     if names.is_empty() {
+        let long = if thorough { THOROUGH } else { &[] };
         return Ok(STEPS.iter().chain(long).collect());
     }
+    let all: Vec<&Step> = STEPS.iter().chain(THOROUGH).collect();
     let named = |name: &String| {
-        let mut all = STEPS.iter().chain(THOROUGH);
-        all.find(|(step, _)| step == name).ok_or_else(|| {
-            let all = STEPS.iter().chain(THOROUGH).map(|(step, _)| *step);
-            let all: Vec<&str> = all.collect();
-            anyhow!("there is no step `{name}`; steps are: {}", all.join(", "))
+        let step = all.iter().find(|(step, _)| step == name).copied();
+        step.ok_or_else(|| {
+            let known: Vec<&str> = all.iter().map(|(step, _)| *step).collect();
+            anyhow!("there is no step `{name}`; steps are: {}", known.join(", "))
         })
     };
     names.iter().map(named).collect()
