@@ -474,9 +474,9 @@ pub(super) struct Pursuit {
     driven: f64,
     /// The last time step that was counted.
     until: usize,
-    /// Distance driven when the robot last had advanced by a cell, m. The next field is the number
-    /// of actions since.
+    /// Distance driven when the robot last had advanced by a cell, m.
     before_last: f64,
+    /// Number of actions since the robot last had advanced by a cell.
     idle: u32,
     /// Distance driven until the robot first was at the goal of the task, m; `None` before.
     arrived: Option<f64>,

@@ -66,9 +66,9 @@ struct Run {
     /// The files that the command writes.
     files: Vec<&'static str>,
     unfinished: PathBuf,
-    /// Exit code, output and files of the command if nobody interrupts it. The field `takes` is its
-    /// duration.
+    /// Exit code, output and files of the command if nobody interrupts it.
     whole: (Option<i32>, String, Vec<Vec<u8>>),
+    /// Duration of the command if nobody interrupts it.
     takes: Duration,
 }
 

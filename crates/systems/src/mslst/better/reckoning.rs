@@ -15,9 +15,9 @@ pub(super) struct Reckoning {
     variance: Vector,
     /// Displacement of the action in progress, by odometry.
     rolled: Vector,
-    /// Number of the action's time steps with odometry that leads on. The next field counts those
-    /// without odometry.
+    /// Number of the action's time steps with odometry that leads on.
     heard: u32,
+    /// Number of the action's time steps without odometry.
     unheard: u32,
 }
 
