@@ -63,7 +63,7 @@ var TolmanReplay = (() => {
 
   // Steps are left out where there is a value at each from the first on.
   function decodeSeries(series) {
-    const values = series.whole ? changes(series.whole) : floats(series.values);
+    const values = series.whole !== undefined ? changes(series.whole) : floats(series.values);
     const at = typeof series.steps === "number" ? Array.from(values, (_, i) => series.steps + i) : steps(series.steps);
     return { name: series.name, unit: series.unit, steps: at, values };
   }

@@ -215,3 +215,18 @@ fn two_traces_play_side_by_side_and_part_where_they_are_said_to() {
     assert!(told.contains(&step), "{told} is shown at {step}");
     tab.assert_content();
 }
+
+/// A log whose map closes no loop has a series of closures without a value.
+#[test]
+#[ignore = "needs a browser"]
+fn a_series_without_values_is_played() {
+    let Some(mut tab) = tab() else { return };
+    let map = folder("replay-no-closures").join("map");
+    let log = "logs/office.clf.gz";
+    let out = map.to_str().unwrap();
+    tolman(&["map", "--log", log, "--system", "matching", "--out", out]);
+    tab.load(&map.join("replay.html"), "");
+    let values = "tolmanReplay.run.tracks[0].series.map(series => series.values.length)";
+    assert_eq!(tab.eval(values), serde_json::json!([0]));
+    tab.assert_content();
+}
