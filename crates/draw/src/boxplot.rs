@@ -8,6 +8,7 @@ use super::words;
 use super::{Drawing, Series};
 use tolman_stats::{FiveNumbers, five_numbers};
 
+/// Least width for the values at the axis, user units.
 const LEFT: f64 = 52.0;
 /// Height for the title of the value axis, user units.
 const TOP: f64 = 30.0;
@@ -74,8 +75,6 @@ pub struct BoxPlot {
 impl BoxPlot {
     /// Returns the finished picture.
     pub fn drawing(&self) -> Drawing {
-        let boxes = LEFT + SLOT * (self.groups.len().max(1) as f64) + 8.0;
-        let width = boxes.max(words::broad(&self.axis));
         let names = self
             .groups
             .iter()
@@ -95,15 +94,19 @@ impl BoxPlot {
             false => Scale::up_to(high, 5.0),
         };
         let y = |value: f64| TOP + PLOT_HEIGHT * (1.0 - scale.share(value));
+        let ticks = scale.ticks.iter();
+        let left = ticks.fold(LEFT, |left, tick| left.max(words::broad(&tick.label) + 8.0));
+        let boxes = left + SLOT * (self.groups.len().max(1) as f64) + 8.0;
+        let width = boxes.max(words::broad(&self.axis));
         let body = html! {
             text class="quiet" x="0" y="12" { (self.axis) }
             @for tick in &scale.ticks {
-                path class="grid" d={ "M" (tenths(LEFT)) " " (tenths(y(tick.value))) "H" (tenths(width)) } {}
-                text class="quiet" x=(tenths(LEFT - 6.0)) y=(tenths(y(tick.value)))
+                path class="grid" d={ "M" (tenths(left)) " " (tenths(y(tick.value))) "H" (tenths(width)) } {}
+                text class="quiet" x=(tenths(left - 6.0)) y=(tenths(y(tick.value)))
                     text-anchor="end" dominant-baseline="central" { (tick.label) }
             }
             @for (i, group) in self.groups.iter().enumerate() {
-                (self.group(group, LEFT + SLOT * i as f64, &y))
+                (self.group(group, left + SLOT * i as f64, &y))
             }
         };
         Drawing {

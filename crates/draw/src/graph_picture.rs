@@ -170,7 +170,8 @@ impl GraphPicture {
     }
 
     /// Returns the labels of nodes, each with the position where its text begins. A label stands
-    /// beside its node, where it covers the least of nodes, signs and earlier labels.
+    /// beside its node, where it covers the least of nodes, signs and earlier labels. It is left
+    /// out where all positions cover other labels: two words in one place cannot be read.
     fn labels(
         &self,
         at: &dyn Fn(Point) -> (f64, f64),
@@ -182,28 +183,26 @@ impl GraphPicture {
         let signs = self.signs.iter();
         let signs = signs.map(|sign| Patch::about(at(*sign), 5.0, 5.0));
         // Without labels there is nothing to place.
-        let mut taken: Vec<Patch> = Vec::new();
+        let (mut things, mut words) = (Vec::new(), Vec::new());
         if labelled.clone().next().is_some() {
-            taken.extend(nodes.chain(signs));
-            taken.extend(self.edge_labels(at));
+            things.extend(nodes.chain(signs));
+            words.extend(self.edge_labels(at));
         }
         let mut placed = Vec::new();
         for node in labelled {
             let width = words::broad(&node.label) * LABEL;
-            let covered = |(x, y): (f64, f64)| {
-                let label = Patch::of_text(x, y, width);
-                let covered = taken.iter().map(|other| label.overlap(other)).sum::<f64>();
-                // A label that is cut off cannot be read at all.
-                covered + 10.0 * label.outside(frame)
-            };
             let places = self.beside_node(at(node.position), width);
-            // Of equally good places, the first.
-            let best = places
+            let labels = places.map(|(x, y)| ((x, y), Patch::of_text(x, y, width)));
+            // A label that is cut off cannot be read at all.
+            let covered = |label: &Patch| label.covered(&things) + 10.0 * label.outside(frame);
+            let free = labels
                 .into_iter()
-                .min_by(|a, b| covered(*a).total_cmp(&covered(*b)));
-            let Some((x, y)) = best else { continue };
-            taken.push(Patch::of_text(x, y, width));
-            placed.push((node.label.as_str(), (x, y)));
+                .filter(|(_, label)| label.covered(&words) <= TOUCH);
+            // Of equally good places, the first.
+            let best = free.min_by(|a, b| covered(&a.1).total_cmp(&covered(&b.1)));
+            let Some((begin, label)) = best else { continue };
+            words.push(label);
+            placed.push((node.label.as_str(), begin));
         }
         placed
     }
@@ -296,6 +295,9 @@ impl GraphPicture {
 /// The size of labels, as a share of that of other text.
 const LABEL: f64 = 0.85;
 
+/// Area in which labels may touch each other, square user units.
+const TOUCH: f64 = 1.0;
+
 /// A rectangle of a drawing that something covers, user units.
 #[derive(Clone, Copy, Debug)]
 struct Patch {
@@ -327,6 +329,11 @@ impl Patch {
             y: (0.0, frame.1),
         };
         area - self.overlap(&inside)
+    }
+
+    /// Returns the area that others cover, each by itself.
+    fn covered(&self, others: &[Self]) -> f64 {
+        others.iter().map(|other| self.overlap(other)).sum()
     }
 
     /// Returns the area of the overlap.
@@ -501,6 +508,25 @@ mod tests {
             patch(goal).overlap(&patch(next)) <= 0.0,
             "{goal:?} {next:?}"
         );
+    }
+
+    #[test]
+    fn a_label_without_a_place_of_its_own_is_left_out() {
+        let mut graph = GraphPicture::new();
+        for number in 0..40 {
+            let near = 0.01 * f64::from(number);
+            graph.node(GraphNode::at(Point::new(near, near)).label(number.to_string()));
+        }
+        let at = |at: Point| (500.0 + 10.0 * at.x, 500.0 - 10.0 * at.y);
+        let labels = graph.labels(&at, FRAME);
+        assert!((4..40).contains(&labels.len()), "{labels:?}");
+        let patches: Vec<Patch> = labels
+            .iter()
+            .map(|(label, (x, y))| Patch::of_text(*x, *y, words::broad(label) * LABEL))
+            .collect();
+        for (number, patch) in patches.iter().enumerate() {
+            assert!(patch.covered(&patches[..number]) <= TOUCH, "{labels:?}");
+        }
     }
 
     #[test]

@@ -94,10 +94,10 @@ impl Shade {
         format!("{:.2}", 0.06 + 0.84 * self.share(value))
     }
 
-    /// Returns the class of text on a value: the one that is easier to read at this depth, on a
-    /// light or a dark page.
+    /// Returns the class of text on a value. On deep colours it has a halo: neither black nor white
+    /// is easy to read on all of them, on a light and on a dark page.
     pub(super) fn text_class(&self, value: f64) -> &'static str {
-        if self.share(value) > 0.8 { "upon" } else { "" }
+        if self.share(value) > 0.4 { "halo" } else { "" }
     }
 
     /// The height of [`Self::legend`].
@@ -136,7 +136,7 @@ mod tests {
             .map(|value| shade.opacity(value).parse().unwrap())
             .to_vec();
         assert_eq!(depths, [0.06, 0.06, 0.48, 0.9, 0.9]);
-        assert_eq!((shade.text_class(6.0), shade.text_class(6.5)), ("", "upon"));
+        assert_eq!((shade.text_class(4.0), shade.text_class(5.0)), ("", "halo"));
     }
 
     #[test]
