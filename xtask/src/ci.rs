@@ -76,7 +76,6 @@ const STEPS: &[Step] = &[
 const THOROUGH: &[Step] = &[
     ("fuzz", fuzz_targets),
     ("fuzzing", || passed(fuzz::run(FUZZING, 1, &[]))),
-    ("pages", || if_installed("chromium", all_pages)),
     // Programs that are killed, or misbehave, again and again.
     ("endurance", || {
         passes(
@@ -85,6 +84,7 @@ const THOROUGH: &[Step] = &[
     }),
     ("mutants", || mutants::check(MUTANTS, &[])),
     ("golden, all", || passed(golden::run(&[], false))),
+    ("pages", || if_installed("chromium", all_pages)),
     ("python", python::check),
     ("rerun", rerun::check),
     ("playground", playground::check),
@@ -188,6 +188,12 @@ fn commands() -> Result<Outcome> {
 fn all_pages() -> Result<Outcome> {
     let target = workspace::target_folder()?;
     let folders = [target.join("golden"), target.join("tmp").join("commands")];
+    if let Some(missing) = folders.iter().find(|folder| !folder.is_dir()) {
+        bail!(
+            "there is no {}: add `--step commands --step 'golden, all'`",
+            missing.display()
+        );
+    }
     let mut test = cargo("test --workspace --all-features --test browser --quiet -- --ignored");
     passed(succeed(test.env("TOLMAN_PAGES", env::join_paths(folders)?)))
 }
