@@ -115,7 +115,7 @@ pub use track::{Track, TrackEntry};
 use counts::Expected;
 use estimator::{Rank, trusted_odometry};
 use indexing::{Candidate, Expectation, ViewIndex, expected, moved, plies};
-use looks::Similarity;
+use looks::{Agreeing, Similarity};
 use matching::{Choice, Situation, agrees, alike, choose, remember, share_a_view, similarity};
 use opportunities::steps_along;
 use projector::Projection;

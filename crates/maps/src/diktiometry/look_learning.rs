@@ -44,7 +44,7 @@ impl Observer {
         }
         // Looks tell more than ever, of places where the robot may never come again, too.
         let least = &mut self.map.looks.least_wanted;
-        if least.is_none_or(|least| wanted < least) {
+        if least.is_none_or(|least| wanted.kinds < least.kinds || wanted.places < least.places) {
             *least = Some(wanted);
             let places = self.map.paths.places();
             let waiting = places.filter(|(_, place)| !place.notes.is_empty());

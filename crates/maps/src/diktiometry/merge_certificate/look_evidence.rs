@@ -1,7 +1,8 @@
+use alloc::collections::BTreeSet;
 use alloc::vec::Vec;
 
 use super::{LookEvidence, LookPair};
-use crate::diktiometry::{Config, Journal, Looks, Percepts, Signature, alike};
+use crate::diktiometry::{Agreeing, Config, Journal, Looks, Percepts, Signature, alike};
 
 impl LookEvidence {
     /// Returns the evidence of one pair of visits, with a provisional probability of 1.
@@ -15,11 +16,33 @@ impl LookEvidence {
     }
 
     /// Returns the probability that the agreement is a coincidence. It assumes as many candidate
-    /// places as there are kinds of looks, plus two.
-    pub(super) fn stated(&self, config: &Config, journal: &Journal) -> f64 {
+    /// places as there are kinds of looks, plus two. `place` names the place of a visit.
+    pub(super) fn stated(
+        &self,
+        config: &Config,
+        journal: &Journal,
+        place: impl Fn(usize) -> usize,
+    ) -> f64 {
         let others = f64::from(self.looks.kinds) + 2.0;
-        let chance = self.looks.chance(self.kinds(config, journal));
+        let chance = self.looks.chance(Agreeing {
+            kinds: self.kinds(config, journal),
+            places: self.places(place),
+        });
         (others * chance).min(1.0)
+    }
+
+    /// Returns the number of pairs of places that are in no earlier pair.
+    fn places(&self, place: impl Fn(usize) -> usize) -> usize {
+        let mut paired = BTreeSet::new();
+        let mut count = 0;
+        for pair in &self.pairs {
+            let [one, other] = pair.visits.map(&place);
+            if !paired.contains(&one) && !paired.contains(&other) {
+                paired.extend([one, other]);
+                count += 1;
+            }
+        }
+        count
     }
 
     /// Returns the number of different looks among the pairs.

@@ -192,7 +192,9 @@ impl Prover<'_> {
             ..
         }) = evidence.pairs.get(next)
         {
-            evidence.chance = evidence.stated(self.config, self.journal);
+            evidence.chance = evidence.stated(self.config, self.journal, |visit| {
+                self.identities.find(visit)
+            });
             if evidence.chance < self.config.restructuring.look_error {
                 return Some(sealed(evidence));
             }

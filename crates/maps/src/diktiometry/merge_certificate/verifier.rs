@@ -260,7 +260,10 @@ impl Verifier<'_> {
                 return Err(MergeCertificateError::Gap { number });
             }
         }
-        let (stated, found) = (evidence.chance, evidence.stated(self.config, self.journal));
+        let found = evidence.stated(self.config, self.journal, |visit| {
+            self.identities.find(visit)
+        });
+        let stated = evidence.chance;
         if stated.to_bits() != found.to_bits() {
             return Err(MergeCertificateError::Chance {
                 number,
@@ -349,7 +352,7 @@ mod tests {
             visits,
             after: None,
         }));
-        evidence.chance = evidence.stated(&config(), journal);
+        evidence.chance = evidence.stated(&config(), journal, |visit| visit);
         MergeCertificate::sealed([0, 2], MergeProof::Looks(evidence), true)
     }
 

@@ -11,7 +11,7 @@ use tolman_geom::{Point, PointBox};
 use super::Verdict;
 use super::geometric::{Pair, take_notes};
 use crate::diktiometry::{
-    Config, Diktiometry, PlaceId, SearchLimits, Similarity, Use, share_a_view, similarity,
+    Agreeing, Config, Diktiometry, PlaceId, SearchLimits, Similarity, Use, share_a_view, similarity,
 };
 
 /// Maximum number of pairs of places that are compared.
@@ -132,18 +132,18 @@ fn neighbours(map: &Diktiometry, [a, b]: [PlaceId; 2], config: &Config) -> Optio
     Some(similarity(one, other, &config.percepts))
 }
 
-/// Returns the number of kinds of looks that have to agree where geometry knows nothing. `None` if
-/// looks alone decide nothing there.
-pub(crate) fn wanted_anywhere(map: &Diktiometry, config: &Config) -> Option<usize> {
+/// Returns how many looks have to agree where geometry knows nothing. `None` if looks alone decide
+/// nothing there.
+pub(crate) fn wanted_anywhere(map: &Diktiometry, config: &Config) -> Option<Agreeing> {
     match config.restructuring.look_merge {
         Use::On => enough(map, f64::INFINITY, config),
         Use::Off => None,
     }
 }
 
-/// Returns the number of kinds of looks that have to agree if there is room for `room` places, or
-/// `None` if there are fewer kinds.
-fn enough(map: &Diktiometry, room: f64, config: &Config) -> Option<usize> {
+/// Returns how many looks have to agree if there is room for `room` places, or `None` if no number
+/// is enough.
+fn enough(map: &Diktiometry, room: f64, config: &Config) -> Option<Agreeing> {
     let others = room.min(f64::from(map.looks.kinds) + 2.0);
     map.looks.enough(config.restructuring.look_error / others)
 }
@@ -151,22 +151,22 @@ fn enough(map: &Diktiometry, room: f64, config: &Config) -> Option<usize> {
 /// Agreement of looks along the same actions from two places.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Agreement {
-    /// Enough kinds of looks agree.
+    /// Enough looks agree.
     Enough,
-    /// Fewer kinds agree, as far as is known.
+    /// Fewer looks agree, as far as is known.
     TooLittle,
     /// The two are different: a look differs, or two places that would be one are told apart by
     /// geometry.
     Broken,
 }
 
-/// Returns whether `wanted` kinds of looks agree along the same actions from two places, and
+/// Returns whether `wanted` looks agree along the same actions from two places, and
 /// nothing contradicts that the two are one.
 pub(super) fn agreement(
     map: &Diktiometry,
     a: PlaceId,
     b: PlaceId,
-    wanted: usize,
+    wanted: Agreeing,
     config: &Config,
 ) -> Agreement {
     let paths = &map.paths;
@@ -174,6 +174,7 @@ pub(super) fn agreement(
     let unseen = |place| map.place(place).views.is_empty();
     let mut pairs = Vec::from([(a, b)]);
     let mut kinds: Vec<PlaceId> = Vec::new();
+    let mut paired: Vec<PlaceId> = Vec::new();
     let mut next = 0;
     while let Some(&(a, b)) = pairs.get(next) {
         next += 1;
@@ -182,9 +183,13 @@ pub(super) fn agreement(
         }
         if kinds.iter().all(|&kind| !alike(kind, a)) {
             kinds.push(a);
-            if kinds.len() >= wanted {
-                return Agreement::Enough;
-            }
+        }
+        // A place that is compared twice is no second evidence.
+        if !paired.contains(&a) && !paired.contains(&b) {
+            paired.extend([a, b]);
+        }
+        if kinds.len() >= wanted.kinds && paired.len() >= 2 * wanted.places {
+            return Agreement::Enough;
         }
         for (_, link) in paths.ways(a) {
             let way = paths.ways(b).find(|(_, other)| other.action == link.action);
