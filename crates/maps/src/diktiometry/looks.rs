@@ -17,15 +17,14 @@ pub struct Looks {
     /// Id below which all places were compared with those that look like them.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) noted: usize,
-    /// Least agreement so far that suffices for a merge where geometry knows
-    /// nothing.
+    /// Least agreement so far that suffices for a merge where geometry knows nothing.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub(super) least_wanted: Option<Agreeing>,
 }
 
 impl Looks {
-    /// Returns how many looks have to agree for a coincidence to be less likely than `error`. `None`
-    /// if there are not as many kinds, or if looks repeat without end. O(kinds²).
+    /// Returns how many looks have to agree for a coincidence to be less likely than `error`.
+    /// `None` if there are fewer kinds, or if looks repeat without end. O(kinds²).
     ///
     /// A true place may be many places of a map that is not yet folded, whose pairs are not
     /// independent evidence. So the agreement has to be unlikely both by its kinds and by its
@@ -43,7 +42,7 @@ impl Looks {
         by_kinds.max(self.by_places(agreeing.places))
     }
 
-    /// Returns the probability of so many kinds in agreement if the looks of a place are
+    /// Returns the probability of `agreeing` kinds in agreement if the looks of a place are
     /// independent of its neighbours'.
     ///
     /// Let p be the rate at which two places look alike. It has a beta distribution by the pairs
@@ -63,7 +62,7 @@ impl Looks {
         rates.product()
     }
 
-    /// Returns the probability of so many places in agreement, where looks repeat, room for room:
+    /// Returns the probability of `agreeing` places in agreement where looks repeat, room for room:
     /// the power of the rate at which neighbours of places that look alike do so, too.
     fn by_places(&self, agreeing: usize) -> f64 {
         // Once is not a rule.
