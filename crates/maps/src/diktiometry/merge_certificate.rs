@@ -25,6 +25,9 @@ mod identities;
 mod look_evidence;
 mod prover;
 mod seal;
+#[cfg(test)]
+#[cfg(feature = "serde")]
+mod tampering;
 mod verifier;
 
 use alloc::vec::Vec;
