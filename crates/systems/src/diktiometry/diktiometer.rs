@@ -2,8 +2,7 @@ use core::error::Error;
 
 use thiserror::Error as ThisError;
 use tolman_maps::diktiometry::{
-    Config, Diktiometry, FirstPlace, Frame, Link, ObservedMove, ObservedMoveError, Observer, Place,
-    PlaceId, Signature, StartError,
+    Config, FirstPlace, ObservedMove, ObservedMoveError, Observer, PlaceId, StartError,
 };
 use tolman_robot::{
     Compass, Guess, Landmark, MapView, Mapper, Ranges, Robot, Rolls, SensesLandmarks, Standing,
@@ -187,7 +186,7 @@ impl<E> Mapper for Diktiometer<E> {
     }
 
     fn map_bytes(&self) -> Option<usize> {
-        self.observer().map(|observer| bytes(observer.map()))
+        self.observer()?.map_bytes()
     }
 
     fn visits(&self) -> Vec<Option<u32>> {
@@ -195,39 +194,6 @@ impl<E> Mapper for Diktiometer<E> {
         let now = |place: &Option<PlaceId>| Some(paths?.resolve((*place)?)?.0);
         self.visited.iter().map(now).collect()
     }
-}
-
-/// Returns the memory of the present places, links and frames, bytes, without the grids of
-/// traversals.
-fn bytes(map: &Diktiometry) -> usize {
-    let place = |place: &Place| {
-        let histories = place.histories.iter();
-        size_of_val(place)
-            + size_of_val(place.estims.as_slice())
-            + place.views.iter().map(view_bytes).sum::<usize>()
-            + size_of_val(place.outgoing.as_slice())
-            + size_of_val(place.incoming.as_slice())
-            + size_of_val(place.blocked.as_slice())
-            + histories
-                .map(|one| size_of_val(one.as_slice()))
-                .sum::<usize>()
-            + size_of_val(place.notes.as_slice())
-    };
-    let link = |link: &Link| size_of_val(link) + size_of_val(link.then.as_slice());
-    let frame = |frame: &Frame| {
-        size_of_val(frame)
-            + size_of_val(frame.places.as_slice())
-            + size_of_val(frame.relations.as_slice())
-    };
-    let standing = map.reference.frames().iter();
-    let standing = standing.filter(|frame| !frame.places.is_empty());
-    map.paths.places().map(|(_, one)| place(one)).sum::<usize>()
-        + map.paths.links().map(|(_, one)| link(one)).sum::<usize>()
-        + standing.map(frame).sum::<usize>()
-}
-
-fn view_bytes(view: &Signature) -> usize {
-    size_of_val(view) + view.columns() * view.rows() * size_of::<f64>()
 }
 
 impl<R, E> System<R> for Diktiometer<E>
