@@ -396,7 +396,7 @@ impl FreshRun {
     fn stated(self, statement: Statement) -> Self {
         let is_wrong = !self.right_of_visited;
         Self {
-            said_unfolded: Some(statement.state == MapState::Unfolded),
+            said_unfolded: Some(statement.says_unfolded()),
             said_contradictory: Some(statement.state == MapState::Contradictory),
             verdict_right: Some(statement.objects() == is_wrong),
             objected_soon: is_wrong.then(|| statement.objected_soon()),

@@ -59,6 +59,11 @@ impl Statement {
         is_objection(self.state)
     }
 
+    /// Returns whether the mapper says that its map is not folded.
+    pub(super) const fn says_unfolded(self) -> bool {
+        is_unfolded(self.state)
+    }
+
     /// Returns whether the mapper objects at the end, and did so soon after the map became wrong.
     pub(super) fn objected_soon(self) -> bool {
         self.objects() && self.delay.is_some_and(|delay| delay <= SOON)
@@ -70,5 +75,9 @@ fn said(survey: &Survey) -> MapState {
 }
 
 const fn is_objection(state: MapState) -> bool {
-    matches!(state, MapState::Unfolded | MapState::Contradictory)
+    is_unfolded(state) || matches!(state, MapState::Contradictory)
+}
+
+const fn is_unfolded(state: MapState) -> bool {
+    matches!(state, MapState::Unfolded | MapState::Endless)
 }

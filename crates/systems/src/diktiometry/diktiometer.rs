@@ -21,9 +21,10 @@ use super::{
 /// - **Explore**: the [`Planner`](super::Planner)'s walk. It ends when nothing is left to try at
 ///   any place that can be reached on the map. Moreover, no two places may be one, and the map must
 ///   not contradict itself. It gives up a map that has contradicted itself for 20 moves. It also
-///   gives up a map that was not folded for five moves per place, at most 300 moves. If the robot
-///   was carried elsewhere, so that the view differs from that at its last stop, it begins another
-///   map there. By the paper's rule of matching, or on a map that it was given, it gives up.
+///   gives up a map that was not folded for five moves per place, at most 300 moves, and at once a
+///   map that grows without end. If the robot was carried elsewhere, so that the view differs from
+///   that at its last stop, it begins another map there. By the paper's rule of matching, or on a
+///   map that it was given, it gives up.
 /// - **Reach** a place: the map's plan, made again after every routine. It gives up if the map
 ///   knows no way.
 /// - **Reach** a landmark: the plan to the place where it was sensed last. Until it was sensed, the
