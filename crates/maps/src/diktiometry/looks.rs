@@ -59,6 +59,13 @@ impl Looks {
         by_chance.max(by_rule)
     }
 
+    /// Returns whether each count is a part of the one that it is counted from.
+    pub(super) const fn is_consistent(&self) -> bool {
+        self.deceiving <= self.different
+            && self.followed <= self.deceiving
+            && self.repeating <= self.followed
+    }
+
     /// Returns all counts.
     pub(super) fn counts(&self) -> [u64; 5] {
         let Self {

@@ -74,7 +74,8 @@ impl Walked {
         let is_stated_right = match &certificate.proof {
             MergeProof::Bounds(_) => true,
             MergeProof::Looks(evidence) => {
-                (self.coincidence(evidence) - evidence.chance).abs() < 1e-6
+                are_parts(&evidence.looks)
+                    && (self.coincidence(evidence) - evidence.chance).abs() < 1e-6
             }
         };
         one == other && is_stated_right
@@ -92,6 +93,19 @@ impl Walked {
         let others = f64::from(evidence.looks.kinds) + 2.0;
         (others * mean_power(&evidence.looks, agreeing)).min(1.0)
     }
+}
+
+/// Returns whether counts are of pairs, of the alike among these, of those with known neighbours,
+/// and of those whose neighbours are alike, too.
+fn are_parts(looks: &Looks) -> bool {
+    let Looks {
+        different,
+        deceiving,
+        followed,
+        repeating,
+        ..
+    } = *looks;
+    [different, deceiving, followed, repeating].is_sorted_by(|whole, part| part <= whole)
 }
 
 /// Returns the mean of pᵏ, where p has the beta distribution that the counts give with Jeffreys'
