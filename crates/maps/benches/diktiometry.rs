@@ -2,6 +2,8 @@
 //! alike. It times moves while the world is being learned, and moves once it is known. Another
 //! world has places with many looks.
 //!
+//! The first table is of a map that grows to ten thousand places, with its memory.
+//!
 //! Criterion measures moves on known maps. The table is of single moves, because percentiles say
 //! more on a busy machine.
 
@@ -18,11 +20,13 @@ mod walk;
 extern crate alloc;
 
 use core::time::Duration;
+use std::fs;
 use std::time::Instant;
 
 use criterion::Criterion;
 use tolman_maps::diktiometry::{Config, StepReport, Use};
 use tolman_maze::Direction;
+use tolman_robot::Mapper;
 use walk::{ODOMETRY, Scripted, Walk, open, painted};
 
 /// Moves through each of the worlds of many looks, and how many of the first and of the last of
@@ -33,11 +37,33 @@ const ROW: usize = 1000;
 /// Number of times that these moves are made. The least time of each counts.
 const AGAIN: usize = 3;
 
+/// Numbers of places at which the growing map is measured, and the side of its world.
+const SIZES: [usize; 6] = [500, 1000, 2000, 4000, 7000, 10_000];
+const LARGE: u16 = 100;
+
+/// Number of moves after which the places of the growing map are counted again.
+const COUNTED: usize = 50;
+
+/// Size of a page of memory, bytes, as Linux counts them.
+const PAGE: usize = 4096;
+
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
+    // The growing map first, while the process has taken no other memory.
+    println!(
+        "| places | moves | mean µs | 90 % µs | map, bytes a place | resident bytes a place |"
+    );
+    println!("| ---: | ---: | ---: | ---: | ---: | ---: |");
+    growing();
     println!("| places | moves | map | median µs | 90 % µs | mean µs |");
     println!("| ---: | ---: | --- | ---: | ---: | ---: |");
     by_looks();
+    in_the_open(&mut criterion);
+    criterion.final_summary();
+}
+
+/// Times moves in open worlds, while these are being learned and afterwards.
+fn in_the_open(criterion: &mut Criterion) {
     for (side, moves) in [(10, 1000), (32, 6000), (63, 24_000)] {
         let config = Config::new(Config::compass_actions(), 1.0);
         let mut walk = Walk::new(open(side), ODOMETRY, config, 1);
@@ -72,7 +98,88 @@ fn main() {
             },
         );
     }
-    criterion.final_summary();
+}
+
+/// Lets a map grow to the last of [`SIZES`], and times the moves from each size to the next. Of
+/// equal walks, the least time of each move counts.
+fn growing() {
+    let walks = [(); AGAIN].map(|()| grown());
+    for (
+        number,
+        Grown {
+            size,
+            bytes,
+            resident,
+            ..
+        },
+    ) in walks[0].iter().enumerate()
+    {
+        let each = walks.iter().map(|walk| walk[number].times.clone());
+        let least = |a: Vec<Duration>, b: Vec<Duration>| {
+            a.into_iter().zip(b).map(|(a, b)| a.min(b)).collect()
+        };
+        grown_row(
+            *size,
+            each.reduce(least).unwrap_or_default(),
+            *bytes,
+            *resident,
+        );
+    }
+}
+
+/// A part of a walk, at the end of which the map has a given number of places.
+struct Grown {
+    size: usize,
+    times: Vec<Duration>,
+    /// Memory of the map, bytes.
+    bytes: usize,
+    /// Memory that the process has taken since the walk began, bytes; `None` where it is unknown.
+    resident: Option<usize>,
+}
+
+fn grown() -> Vec<Grown> {
+    let before = resident();
+    let config = Config::new(Config::compass_actions(), 1.0);
+    let mut walk = Walk::new(open(LARGE), ODOMETRY, config, 1);
+    let mut planner = Scripted::new(1.0, 1);
+    let grow = |size| {
+        let mut times = Vec::new();
+        while walk.observer.map().paths.places().count() < size {
+            for _ in 0..COUNTED {
+                let direction = planner.choose(&walk);
+                times.push(timed(&mut walk, direction).0);
+            }
+        }
+        Grown {
+            size,
+            times,
+            bytes: walk.observer.map_bytes().unwrap(),
+            resident: resident()
+                .zip(before)
+                .map(|(now, before)| now.saturating_sub(before)),
+        }
+    };
+    SIZES.map(grow).into()
+}
+
+/// Returns the resident memory of the process, bytes; `None` if the system does not say.
+fn resident() -> Option<usize> {
+    let pages = fs::read_to_string("/proc/self/statm").ok()?;
+    let pages: usize = pages.split_whitespace().nth(1)?.parse().ok()?;
+    Some(PAGE * pages)
+}
+
+fn grown_row(places: usize, mut times: Vec<Duration>, bytes: usize, resident: Option<usize>) {
+    times.sort_unstable();
+    let micros = |time: Duration| time.as_secs_f64() * 1e6;
+    let mean = micros(times.iter().sum()) / times.len() as f64;
+    let most = micros(times[(times.len() - 1) * 90 / 100]);
+    let bytes = bytes / places;
+    let resident = resident.map_or("–".to_owned(), |all| (all / places).to_string());
+    println!(
+        "| {places} | {} | {mean:.1} | {most:.1} | {bytes} | {resident} |",
+        times.len()
+    );
 }
 
 /// Times walks among walls of eight colours, with merges by looks. On a map that is being learned,

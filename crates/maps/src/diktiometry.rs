@@ -60,6 +60,7 @@ mod map;
 mod map_file;
 mod mapper;
 mod matching;
+mod memory;
 mod merge_certificate;
 mod observation;
 mod observer;

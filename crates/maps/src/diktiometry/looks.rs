@@ -70,6 +70,13 @@ impl Looks {
         libm::pow(repeats, agreeing as f64)
     }
 
+    /// Returns whether each count is a part of the one that it is counted from.
+    pub(super) const fn is_consistent(&self) -> bool {
+        self.deceiving <= self.different
+            && self.followed <= self.deceiving
+            && self.repeating <= self.followed
+    }
+
     /// Returns all counts.
     pub(super) fn counts(&self) -> [u64; 5] {
         let Self {

@@ -62,6 +62,11 @@ impl Mapper for Observer {
             Identity::Meets => None,
         }
     }
+
+    /// Returns the memory of the map ([`Diktiometry::bytes`]), without tracks and journal.
+    fn map_bytes(&self) -> Option<usize> {
+        Some(self.map().bytes())
+    }
 }
 
 fn view(map: &Diktiometry) -> MapView {

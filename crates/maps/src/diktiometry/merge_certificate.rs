@@ -25,6 +25,9 @@ mod identities;
 mod look_evidence;
 mod prover;
 mod seal;
+#[cfg(test)]
+#[cfg(feature = "serde")]
+mod tampering;
 mod verifier;
 
 use alloc::vec::Vec;
@@ -88,7 +91,7 @@ pub struct LookEvidence {
     /// Pairs of visits that look alike; the first pair is at the two places.
     pub pairs: Vec<LookPair>,
     /// The map's counts of how well looks tell places apart. The checker takes these counts as
-    /// given.
+    /// given if they do not contradict each other.
     pub looks: Looks,
     /// Probability that looks agree as far as these at two different places, 0 … 1.
     pub chance: f64,

@@ -10,13 +10,15 @@ use tolman_arena::diktiometry::{
 };
 use tolman_experiment::{BoxError, Fields, Metric, Options, Record, Row, Table, record, require};
 use tolman_maps::diktiometry::{
-    CertifiedMerges, Identity, JournalLength, MergeProof, Use, certify_merges, verify_merges,
+    CertifiedMerges, Config, Identity, JournalLength, MapState, MergeProof, Use, certify_merges,
+    verify_merges,
 };
 use tolman_maze::drawings::{eight, ladder_of, office, ring, spiral};
 use tolman_maze::{GenerateError, Maze};
 use tolman_systems::stream;
 
 use super::ablations::{Change, papers_rule};
+use super::objection::{Listener, Statement};
 use super::settings::{BARE, FURNISHED, HEED, WALLED_UP};
 use super::share;
 
@@ -124,6 +126,12 @@ const fn painted(row: &'static str, draw: Draw) -> FreshRow {
         .by_looks()
 }
 
+/// Tells a mapper that places are farther apart than they are by `factor`.
+fn tell_separation(config: &mut Config, factor: f64) {
+    config.separation *= factor;
+    config.alike_separation *= factor;
+}
+
 /// Returns all rows.
 pub(super) fn rows() -> Vec<FreshRow> {
     let five_scripted = FreshRow {
@@ -154,6 +162,16 @@ pub(super) fn rows() -> Vec<FreshRow> {
                 robot.hold_steps = u32::MAX;
                 (robot.odometry_share, robot.shared_share) = (0.02, 0.1);
             },
+            ..five_scripted
+        },
+        FreshRow {
+            row: "5x5 separation told × 0.5",
+            change: |config| tell_separation(config, 0.5),
+            ..five_scripted
+        },
+        FreshRow {
+            row: "5x5 separation told × 2",
+            change: |config| tell_separation(config, 2.0),
             ..five_scripted
         },
         seven(),
@@ -224,6 +242,18 @@ record! {
         stated_chances: Option<f64> => neither("false proofs, as stated").decimals(4),
         /// Number of merges with neither kind of proof.
         unproven: Option<usize> => lower("merges without proof"),
+        /// Whether the mapper says at the end that its map is not folded.
+        said_unfolded: Option<bool> => neither("said to be not folded"),
+        /// Whether the mapper says at the end that its map contradicts itself.
+        said_contradictory: Option<bool> => neither("said to contradict itself"),
+        /// Whether the mapper objects to a map at the end, if and only if it does not match what
+        /// was visited.
+        verdict_right: Option<bool> => higher("own verdict right"),
+        /// Whether the mapper objects to a wrong map at the end, and did so within 200 moves after
+        /// the map became wrong for good. Wrong maps only.
+        objected_soon: Option<bool> => higher("wrong map objected to soon"),
+        /// Number of moves from when a map became wrong for good until the mapper objected to it.
+        objection_delay: Option<u32> => lower("moves until objection"),
     }
 }
 
@@ -234,7 +264,12 @@ impl FreshRun {
     fn relations(&self) -> Result<(), String> {
         let told = "a map is right only of what was visited, and if it is whole";
         let right = self.right_of_visited && is_whole(self.seen, self.link_recall);
-        require(self.right == right, told)
+        require(self.right == right, told)?;
+        let told = "an objection is late or soon only where a map is wrong";
+        require(
+            !(self.right_of_visited && self.objected_soon.is_some()),
+            told,
+        )
     }
 }
 
@@ -262,6 +297,11 @@ pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
         .metric(Metric::total(FreshRun::false_looks))
         .metric(Metric::total(FreshRun::stated_chances).decimals(4))
         .metric(Metric::total(FreshRun::unproven))
+        .metric(Metric::percent("said_unfolded_percent", FreshRun::said_unfolded))
+        .metric(Metric::percent("said_contradictory_percent", FreshRun::said_contradictory))
+        .metric(Metric::percent("verdict_right_percent", FreshRun::verdict_right))
+        .metric(Metric::percent("objected_soon_percent", FreshRun::objected_soon))
+        .metric(Metric::greatest("slowest_objection", FreshRun::objection_delay))
         .rows(rows.iter().map(|row| Row::new(row.row).runs(runs(row))))
         .row(Row::of_all(ALL_RUNS))
         .note(
@@ -271,8 +311,10 @@ pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
              colours. Ladders (the number is the length of their corridors), eights, spirals and \
              rings have walls of eight colours, the office floor has one colour; 1000 moves with \
              scripts. Scripts are begun with a probability of 30 %, in 20x20 and in the office floor \
-             always. Constant error: odometry and compass have the same error all along. Paper's \
-             rule: a place is recognized if boxes meet, and places merge by their estims. The row of \
+             always. Constant error: odometry and compass have the same error all along. \
+             Separation told: the mapper is told that places are half or twice as far apart as they \
+             are. Every ten moves the mapper is asked whether its map is folded and free of \
+             contradictions; soon is within 200 moves. Paper's rule: a place is recognized if boxes meet, and places merge by their estims. The row of \
              all runs includes those by the paper's rule.",
         )
 }
@@ -318,7 +360,15 @@ impl FreshRow {
     pub(super) fn run(&self, seed: u64) -> Result<Fields, BoxError> {
         let (office, mut config) = self.draw(seed)?;
         config.mapper.journal = JournalLength::All;
-        let survey = Survey::new(&office, config, seed)?.finish()?;
+        let mut survey = Survey::new(&office, config, seed)?;
+        let is_by_the_paper = survey.observer().config().matching.identity == Identity::Meets;
+        let mut listener = Listener::default();
+        for number in 1..=self.moves {
+            survey.step()?;
+            if !is_by_the_paper {
+                listener.listen(number, &survey);
+            }
+        }
         let score = survey.score();
         let places = office.places(&[]).len();
         let seen = share(score.visited, places).unwrap_or(1.0);
@@ -332,16 +382,29 @@ impl FreshRow {
             link_precision: score.link_precision,
             ..FreshRun::default()
         };
-        // The paper's rule gives no proofs.
-        let config = survey.observer().config();
-        match config.matching.identity {
-            Identity::Certain => Ok(run.certified(&survey)?.fields()?),
-            Identity::Meets => Ok(run.fields()?),
+        // The paper's rule gives no proofs, and does not check its map.
+        if is_by_the_paper {
+            return Ok(run.fields()?);
         }
+        let statement = listener.statement(&survey);
+        Ok(run.certified(&survey)?.stated(statement).fields()?)
     }
 }
 
 impl FreshRun {
+    /// Returns the record with what the mapper said of its map.
+    fn stated(self, statement: Statement) -> Self {
+        let is_wrong = !self.right_of_visited;
+        Self {
+            said_unfolded: Some(statement.says_unfolded()),
+            said_contradictory: Some(statement.state == MapState::Contradictory),
+            verdict_right: Some(statement.objects() == is_wrong),
+            objected_soon: is_wrong.then(|| statement.objected_soon()),
+            objection_delay: statement.delay.filter(|_| is_wrong),
+            ..self
+        }
+    }
+
     /// Returns the record with the numbers of proofs for the map's merges, and of false ones, after
     /// checking them.
     fn certified(self, survey: &Survey) -> Result<Self, BoxError> {

@@ -5,6 +5,7 @@ mod ablations;
 pub mod drawing;
 mod figures;
 mod fresh;
+mod objection;
 mod replay;
 mod settings;
 

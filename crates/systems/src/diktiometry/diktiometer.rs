@@ -2,8 +2,7 @@ use core::error::Error;
 
 use thiserror::Error as ThisError;
 use tolman_maps::diktiometry::{
-    Config, Diktiometry, FirstPlace, Frame, Link, ObservedMove, ObservedMoveError, Observer, Place,
-    PlaceId, Signature, StartError,
+    Config, FirstPlace, ObservedMove, ObservedMoveError, Observer, PlaceId, StartError,
 };
 use tolman_robot::{
     Compass, Guess, Landmark, MapView, Mapper, Ranges, Robot, Rolls, SensesLandmarks, Standing,
@@ -22,9 +21,10 @@ use super::{
 /// - **Explore**: the [`Planner`](super::Planner)'s walk. It ends when nothing is left to try at
 ///   any place that can be reached on the map. Moreover, no two places may be one, and the map must
 ///   not contradict itself. It gives up a map that has contradicted itself for 20 moves. It also
-///   gives up a map that was not folded for five moves per place, at most 300 moves. If the robot
-///   was carried elsewhere, so that the view differs from that at its last stop, it begins another
-///   map there. By the paper's rule of matching, or on a map that it was given, it gives up.
+///   gives up a map that was not folded for five moves per place, at most 300 moves, and at once a
+///   map that grows without end. If the robot was carried elsewhere, so that the view differs from
+///   that at its last stop, it begins another map there. By the paper's rule of matching, or on a
+///   map that it was given, it gives up.
 /// - **Reach** a place: the map's plan, made again after every routine. It gives up if the map
 ///   knows no way.
 /// - **Reach** a landmark: the plan to the place where it was sensed last. Until it was sensed, the
@@ -187,7 +187,7 @@ impl<E> Mapper for Diktiometer<E> {
     }
 
     fn map_bytes(&self) -> Option<usize> {
-        self.observer().map(|observer| bytes(observer.map()))
+        self.observer()?.map_bytes()
     }
 
     fn visits(&self) -> Vec<Option<u32>> {
@@ -195,39 +195,6 @@ impl<E> Mapper for Diktiometer<E> {
         let now = |place: &Option<PlaceId>| Some(paths?.resolve((*place)?)?.0);
         self.visited.iter().map(now).collect()
     }
-}
-
-/// Returns the memory of the present places, links and frames, bytes, without the grids of
-/// traversals.
-fn bytes(map: &Diktiometry) -> usize {
-    let place = |place: &Place| {
-        let histories = place.histories.iter();
-        size_of_val(place)
-            + size_of_val(place.estims.as_slice())
-            + place.views.iter().map(view_bytes).sum::<usize>()
-            + size_of_val(place.outgoing.as_slice())
-            + size_of_val(place.incoming.as_slice())
-            + size_of_val(place.blocked.as_slice())
-            + histories
-                .map(|one| size_of_val(one.as_slice()))
-                .sum::<usize>()
-            + size_of_val(place.notes.as_slice())
-    };
-    let link = |link: &Link| size_of_val(link) + size_of_val(link.then.as_slice());
-    let frame = |frame: &Frame| {
-        size_of_val(frame)
-            + size_of_val(frame.places.as_slice())
-            + size_of_val(frame.relations.as_slice())
-    };
-    let standing = map.reference.frames().iter();
-    let standing = standing.filter(|frame| !frame.places.is_empty());
-    map.paths.places().map(|(_, one)| place(one)).sum::<usize>()
-        + map.paths.links().map(|(_, one)| link(one)).sum::<usize>()
-        + standing.map(frame).sum::<usize>()
-}
-
-fn view_bytes(view: &Signature) -> usize {
-    size_of_val(view) + view.columns() * view.rows() * size_of::<f64>()
 }
 
 impl<R, E> System<R> for Diktiometer<E>

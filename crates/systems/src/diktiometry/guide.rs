@@ -245,6 +245,7 @@ impl Guide {
         let places = observer.map().paths.places().count() as u32;
         let patience = match state {
             MapState::Contradictory => MOST_CONTRADICTED,
+            MapState::Endless => 0,
             _ => (PATIENCE * places).min(MOST_PATIENCE),
         };
         self.moves - since >= patience
@@ -367,8 +368,10 @@ fn objection(observer: &Observer) -> Option<MapState> {
         return None;
     }
     let state = observer.self_check().state();
-    let is_against = matches!(state, MapState::Unfolded | MapState::Contradictory);
-    is_against.then_some(state)
+    match state {
+        MapState::Whole | MapState::Unfinished => None,
+        MapState::Unfolded | MapState::Endless | MapState::Contradictory => Some(state),
+    }
 }
 
 /// Returns whether nothing is left to try at any place that a plan leads to. O(places + links ·

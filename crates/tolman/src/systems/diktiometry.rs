@@ -34,6 +34,9 @@ const PRESETS: [(&str, &str); 1] = [(
     "As the paper's robot, which heeds advice in 30 % of the cases",
 )];
 
+/// Number of moves between two questions whether the map grows without end.
+const ASKED: u32 = 50;
+
 /// The part of this system that needs mazes, for error messages.
 const OFFICE: &str = "the diktiometry's office";
 
@@ -274,6 +277,11 @@ impl Outing for Surveying {
         }
         self.survey.step()?;
         self.made += 1;
+        let observer = self.survey.observer();
+        if self.made.is_multiple_of(ASKED) && observer.grows_without_end() {
+            let complaint = observer.self_check().complaint();
+            return Ok(Standing::gave_up(complaint.unwrap_or_default()));
+        }
         Ok(Standing::UnderWay)
     }
 

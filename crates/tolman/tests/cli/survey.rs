@@ -113,6 +113,19 @@ fn a_plan_to_where_no_way_is_known_is_a_failure() {
 }
 
 #[test]
+fn a_map_that_grows_without_end_is_given_up() {
+    let folder = folder("endless");
+    let carry_out = |line: &str| tolman_in(&folder, &line.split(' ').collect::<Vec<_>>());
+    carry_out("maze generate eight --size 23x5 --seed 3 --out eight.maze").done();
+    let learn = "learn --system diktiometry --maze eight.maze --set moves=5000 --out eight.json";
+    let told = [
+        "the map grows without end: only 7 of its",
+        "walls of more colours",
+    ];
+    carry_out(learn).failed(1, &told);
+}
+
+#[test]
 fn a_survey_is_gone_on_with_by_the_robot_that_made_it_and_furnished_as_it_was() {
     let folder = folder("whose survey");
     fs::write(folder.join("ring.maze"), RING).unwrap();

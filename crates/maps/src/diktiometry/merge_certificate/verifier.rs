@@ -53,6 +53,14 @@ pub enum MergeCertificateError {
         /// Number of the certificate.
         number: usize,
     },
+    /// The certificate's counts of looks contradict each other.
+    #[error(
+        "certificate {number} has counts of looks that contradict each other, as a part is more than its whole; certify the merges again"
+    )]
+    Counts {
+        /// Number of the certificate.
+        number: usize,
+    },
     /// Both looks are at the same place, so that their agreement is no evidence.
     #[error(
         "certificate {number} counts looks at visits {one} and {other}, which are to the same place"
@@ -259,6 +267,9 @@ impl Verifier<'_> {
             if !expected.into_iter().zip(pair.visits).all(arrives) {
                 return Err(MergeCertificateError::Gap { number });
             }
+        }
+        if !evidence.looks.is_consistent() {
+            return Err(MergeCertificateError::Counts { number });
         }
         let found = evidence.stated(self.config, self.journal, |visit| {
             self.identities.find(visit)

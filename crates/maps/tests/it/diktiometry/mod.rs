@@ -7,4 +7,5 @@ mod learning;
 mod properties;
 mod put_down;
 mod runs;
+mod self_check;
 mod walk;
