@@ -50,6 +50,7 @@ mod map;
 mod outlook;
 mod play;
 mod rival;
+mod rivals;
 mod rollouts;
 mod sides;
 mod split_mix;

@@ -1,10 +1,10 @@
 use tolman_maze::Cell;
 
-/// A stop that is compared with the explorer's own.
+/// A stop that is compared with another one, or with stopping at once.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rival {
     pub(super) stop: Cell,
-    /// Sum, over the mazes, of the steps that it costs more than the explorer's own stop.
+    /// Sum, over the mazes, of the steps that it costs more.
     pub(super) sum: f32,
     squares: f32,
     mazes: f32,
@@ -26,9 +26,14 @@ impl Rival {
         self.mazes += 1.0;
     }
 
+    /// Returns the average number of steps it costs more.
+    pub(super) fn mean(&self) -> f32 {
+        self.sum / self.mazes
+    }
+
     /// Returns the average number of steps it costs more, plus `confidence` standard errors.
     pub(super) fn at_worst(&self, confidence: f32) -> f32 {
-        let mean = self.sum / self.mazes;
+        let mean = self.mean();
         let variance = (self.squares / self.mazes - mean * mean).max(LEAST_VARIANCE);
         mean + confidence * libm::sqrtf(variance / self.mazes)
     }
@@ -48,6 +53,7 @@ mod tests {
             rival.add(more);
         }
         // Mean −1, variance 4, of four mazes: the standard error is 1.
+        assert!((rival.mean() + 1.0).abs() < 1e-6);
         assert!(rival.at_worst(0.9) < 0.0);
         assert!(rival.at_worst(1.1) > 0.0);
     }

@@ -5,7 +5,7 @@ use super::completion::Completions;
 use super::config::{at_least_0, positive};
 use super::explorer::Task;
 use super::play::{Play, Stage};
-use super::rival::Rival;
+use super::rivals::Rivals;
 use super::sides::Sides;
 use super::split_mix::SplitMix;
 use super::worth::WorthConfig;
@@ -79,7 +79,7 @@ impl RolloutConfig {
 #[derive(Clone, Debug)]
 pub struct Rollouts<const N: usize> {
     pub(super) base: MoveExplorer<N>,
-    config: RolloutConfig,
+    pub(super) config: RolloutConfig,
     worth: Option<WorthConfig>,
     aim: Option<Aim>,
 }
@@ -92,7 +92,7 @@ struct Aim {
     unknown: u32,
 }
 
-/// Number of stops that are tried, the explorer's own among them.
+/// Number of stops that are tried for the proof, the explorer's own among them.
 const STOPS: usize = 5;
 
 impl<const N: usize> Rollouts<N> {
@@ -139,25 +139,26 @@ impl<const N: usize> Rollouts<N> {
     ) -> Result<MoveDecision, TooLarge> {
         let chart = self.base.chart(walls, goals, at)?;
         let task = self.base.task(&chart, at);
-        if let (Task::Prove { closed }, Some(worth)) = (&task, self.worth)
-            && self.kept_aim(&chart, at, *closed).is_none()
-            && self.is_enough(&worth, &chart, at, *closed)
-        {
-            return Ok(MoveDecision::Enough { moves: *closed });
+        if let Task::Prove { closed } = task {
+            self.aim = self.next_aim(&chart, at, closed);
+            if self.aim.is_none() && self.worth.is_some() {
+                return Ok(MoveDecision::Enough { moves: closed });
+            }
         }
-        Ok(task.decide(&chart, at, |closed| self.aim(&chart, at, closed)))
+        Ok(task.decide(&chart, at, |_| self.aim.map(|aim| aim.stop)))
     }
 
-    fn aim(&mut self, chart: &Chart<N>, at: Cell, closed: u16) -> Option<Cell> {
-        let aim = match self.kept_aim(chart, at, closed) {
-            Some(aim) => aim,
-            None => Aim {
-                stop: self.choose(chart, at, closed)?,
-                unknown: chart.unknown().len(),
-            },
-        };
-        self.aim = Some(aim);
-        Some(aim.stop)
+    /// Returns the stop to drive to: the one chosen before, or a new one.
+    fn next_aim(&self, chart: &Chart<N>, at: Cell, closed: u16) -> Option<Aim> {
+        let kept = self.kept_aim(chart, at, closed);
+        kept.or_else(|| {
+            let stop = match &self.worth {
+                None => self.choose(chart, at, closed),
+                Some(worth) => self.choose_worthwhile(worth, chart, at, closed),
+            };
+            let unknown = chart.unknown().len();
+            stop.map(|stop| Aim { stop, unknown })
+        })
     }
 
     /// Returns the stop chosen before, if nothing new was seen since and it can still tell
@@ -170,44 +171,22 @@ impl<const N: usize> Rollouts<N> {
         })
     }
 
-    /// Returns the best stop to drive to, among those that the base policy rates highest.
+    /// Returns the best stop for the proof, among those that the base policy rates highest.
     fn choose(&self, chart: &Chart<N>, at: Cell, closed: u16) -> Option<Cell> {
-        let stops = self.base.proofs::<{ STOPS }>(chart, at, closed);
-        let own = stops.best()?;
-        let mut rivals = [None; STOPS];
-        for (slot, stop) in rivals.iter_mut().zip(stops.iter().skip(1)) {
-            *slot = Some(Rival::new(stop));
-        }
+        let mut rivals = Rivals::of(&self.base.proofs::<STOPS>(chart, at, closed))?;
         let mut completions = self.completions(chart);
-        let most = match self.worth {
-            None => self.config.completions,
-            Some(worth) => worth.completions,
-        };
-        for drawn in 1..=most {
-            if rivals.iter().flatten().next().is_none() {
+        for drawn in 1..=self.config.completions {
+            if rivals.is_empty() {
                 break;
             }
-            let maze = completions.draw();
-            let try_all = match self.worth {
-                None => self.hold_proofs(chart, &maze, own, at, &mut rivals),
-                Some(worth) => self.hold_scores(&worth, chart, &maze, (own, at), &mut rivals),
-            };
+            let tried = self.hold_proofs(chart, &completions.draw(), at, &mut rivals);
             // A play without an end reveals nothing about this maze.
-            if try_all.is_some() && drawn >= self.config.trial {
-                for slot in &mut rivals {
-                    *slot = slot.filter(|rival| rival.sum < 0.0);
-                }
+            if tried.is_some() && drawn >= self.config.trial {
+                rivals.give_up_worse();
             }
         }
-        let better = rivals
-            .iter()
-            .flatten()
-            .map(|rival| (rival.at_worst(self.config.confidence), rival.stop));
-        let best = better.fold(
-            (0.0, own),
-            |best, rival| if rival.0 < best.0 { rival } else { best },
-        );
-        Some(best.1)
+        let best = rivals.best(self.config.confidence);
+        Some(best.map_or(rivals.own, |rival| rival.stop))
     }
 
     /// Returns mazes that agree with all known walls. They stay the same as long as the number of
@@ -217,21 +196,20 @@ impl<const N: usize> Rollouts<N> {
         Completions::new(chart, SplitMix::new(seed))
     }
 
-    /// Compares the rivals with the explorer's `own` stop by the steps of the proof in one maze.
+    /// Compares the rivals with the explorer's own stop by the steps of the proof in one maze.
     fn hold_proofs(
         &self,
         chart: &Chart<N>,
         maze: &Sides<N>,
-        own: Cell,
         at: Cell,
-        rivals: &mut [Option<Rival>],
+        rivals: &mut Rivals<STOPS>,
     ) -> Option<()> {
         let mut play = Play::new();
-        let steps = self.play(chart, maze, own, at, |stage, steps| {
+        let steps = self.play(chart, maze, rivals.own, at, |stage, steps| {
             play.record(stage, steps);
             None
         })?;
-        for rival in rivals.iter_mut().flatten() {
+        for rival in rivals.iter_mut() {
             let met = |stage, so_far| play.steps_at(stage).map(|at| steps - at + so_far);
             if let Some(its) = self.play(chart, maze, rival.stop, at, met) {
                 rival.add(its - steps);

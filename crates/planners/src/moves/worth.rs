@@ -3,19 +3,20 @@ use tolman_maze::Cell;
 use super::chart::{Chart, Driven};
 use super::config::positive;
 use super::rival::Rival;
+use super::rivals::Rivals;
 use super::sides::Sides;
 use super::{MoveExplorerConfigError, Rollouts};
 
 /// Condition on which [`Rollouts`] stop although the best run is not proven: when looking on costs
 /// more than the expected gain.
 ///
-/// Mazes are drawn that agree with all known walls, and the rest of the proof is played in each.
-/// The gain is how much shorter the drawn maze's best run is than the known run. The price is the
-/// number of steps of the proof.
+/// Mazes are drawn that agree with all known walls. In each, each of the explorer's twelve best
+/// stops is tried, and after it the proof is played to its end. A play costs its steps. It gains
+/// the steps by which the drawn maze's best run is shorter than the known run. The mouse drives to
+/// the best stop if its plays are on average worth more than they cost. Otherwise it stops.
 ///
-/// The stops are chosen by the score then, not by the steps of the proof. It is unknown in advance
-/// when a proof is broken off. So a play counts half as if it were played to its end, and half as
-/// if it were broken off at its best moment.
+/// It is unknown in advance when a proof is broken off. So a play counts half as if it were played
+/// to its end, and half as if it were broken off at its best moment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
@@ -24,8 +25,8 @@ pub struct WorthConfig {
     /// Number of mazes drawn for a decision, in place of
     /// [`RolloutConfig::completions`](super::RolloutConfig::completions). ≥ 1.
     pub completions: u16,
-    /// Factor on the expected gain, > 0. Drawn mazes are less odd than real ones, and the oddities
-    /// that they never show can be worth most.
+    /// Factor on the gain of a play to its end, > 0. Above 1 it stands for a mouse that breaks off
+    /// when looks turn out to gain nothing, which a play does not do.
     pub gain: f32,
     /// Price of a step of the exploration, in steps of the run. > 0; the rules have a thirtieth.
     pub step_price: f32,
@@ -38,7 +39,7 @@ impl WorthConfig {
     pub const fn tuned() -> Self {
         Self {
             completions: 48,
-            gain: 2.5,
+            gain: 1.5,
             step_price: 1.0 / 30.0,
         }
     }
@@ -69,48 +70,68 @@ struct Payoff {
     at_best: f32,
 }
 
+impl Payoff {
+    /// Returns the cost of the play, which is below 0 if it is better than to stop at once.
+    fn cost(&self, worth: &WorthConfig) -> f32 {
+        let at_end = self.steps - worth.gain * self.gain / worth.step_price;
+        f32::midpoint(at_end, self.at_best)
+    }
+}
+
+/// Number of stops that are tried, the explorer's own among them.
+const STOPS: usize = 12;
+
 impl<const N: usize> Rollouts<N> {
-    /// Returns whether further looks cost more than they are expected to gain, from the cell `at`,
-    /// if the known run takes `closed` steps.
-    pub(super) fn is_enough(
+    /// Returns the best stop, among those that the base policy rates highest, from the cell `at`.
+    /// Returns `None` if none is expected to gain more than it costs. The known run takes `closed`
+    /// steps.
+    pub(super) fn choose_worthwhile(
         &self,
         worth: &WorthConfig,
         chart: &Chart<N>,
         at: Cell,
         closed: u16,
-    ) -> bool {
-        let Some(stop) = self.base.proofs::<1>(chart, at, closed).best() else {
-            return false;
-        };
+    ) -> Option<Cell> {
+        let mut rivals = Rivals::of(&self.base.proofs::<STOPS>(chart, at, closed))?;
+        let mut own = Rival::new(rivals.own);
         let mut completions = self.completions(chart);
-        let net: f32 = (0..worth.completions)
-            .filter_map(|_| self.payoff(worth, chart, &completions.draw(), stop, at))
-            .map(|payoff| worth.gain * payoff.gain - worth.step_price * payoff.steps)
-            .sum();
-        net <= 0.0
+        for drawn in 1..=worth.completions {
+            let maze = completions.draw();
+            // A play without an end reveals nothing about this maze.
+            let Some(cost) = self.hold_costs(worth, chart, &maze, at, &mut rivals) else {
+                continue;
+            };
+            own.add(cost);
+            if drawn >= self.config.trial {
+                rivals.give_up_worse();
+            }
+        }
+        let best = rivals.best(self.config.confidence);
+        let (stop, saved) = best.map_or((own.stop, 0.0), |best| (best.stop, best.mean()));
+        (own.mean() + saved < 0.0).then_some(stop)
     }
 
-    /// Compares the rivals with the explorer's own stop by the score in one maze.
-    pub(super) fn hold_scores(
+    /// Compares the rivals with the explorer's own stop by their costs in one maze, and returns the
+    /// cost of the own stop.
+    fn hold_costs(
         &self,
         worth: &WorthConfig,
         chart: &Chart<N>,
         maze: &Sides<N>,
-        (own, at): (Cell, Cell),
-        rivals: &mut [Option<Rival>],
-    ) -> Option<()> {
+        at: Cell,
+        rivals: &mut Rivals<STOPS>,
+    ) -> Option<f32> {
         let cost = |stop| {
             let payoff = self.payoff(worth, chart, maze, stop, at)?;
-            let at_end = payoff.steps - payoff.gain / worth.step_price;
-            Some(f32::midpoint(at_end, payoff.at_best))
+            Some(payoff.cost(worth))
         };
-        let steps = cost(own)?;
-        for rival in rivals.iter_mut().flatten() {
+        let own = cost(rivals.own)?;
+        for rival in rivals.iter_mut() {
             if let Some(its) = cost(rival.stop) {
-                rival.add(its - steps);
+                rival.add(its - own);
             }
         }
-        Some(())
+        Some(own)
     }
 
     /// Plays from `at` over `stop` to the end of the proof, in a maze with the open sides `maze`.
