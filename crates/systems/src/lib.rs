@@ -51,6 +51,7 @@ mod brain;
 pub mod cpm;
 pub mod diktiometry;
 pub mod gngslam;
+mod lifts;
 mod map_header;
 pub mod micromouse;
 pub mod mslst;

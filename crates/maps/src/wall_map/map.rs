@@ -203,6 +203,12 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
         Ok(learned)
     }
 
+    /// Forgets whether a wall stands on a side of a cell, because it is not as it was. Nothing is
+    /// forgotten of the border of the maze.
+    pub fn forget(&mut self, cell: Cell, direction: Direction) {
+        self.set(cell, direction, Knowledge::Unknown);
+    }
+
     /// Forgets the walls of the last `observations` that had anything new, inferences included.
     /// Returns the number of observations undone, which is smaller if the map no longer remembers
     /// them. Visits stay.
@@ -225,13 +231,22 @@ impl<const N: usize, const LOG: usize> WallMap<N, LOG> {
 
     /// Counts a visit to a cell of the maze; visits to other cells do not count.
     pub fn visit(&mut self, cell: Cell) {
-        if !self.grid.contains(cell) {
-            return;
-        }
-        let row = self.visits.get_mut(usize::from(cell.y));
-        if let Some(visits) = row.and_then(|row| row.get_mut(usize::from(cell.x))) {
+        if let Some(visits) = self.visits_mut(cell) {
             *visits = visits.saturating_add(1);
         }
+    }
+
+    /// Takes back a visit to a cell, because the mouse was elsewhere.
+    pub fn unvisit(&mut self, cell: Cell) {
+        if let Some(visits) = self.visits_mut(cell) {
+            *visits = visits.saturating_sub(1);
+        }
+    }
+
+    fn visits_mut(&mut self, cell: Cell) -> Option<&mut u8> {
+        let rows = self.grid.contains(cell).then_some(&mut self.visits)?;
+        let row = rows.get_mut(usize::from(cell.y))?;
+        row.get_mut(usize::from(cell.x))
     }
 
     /// Returns the number of visits to a cell; 255 stands for all greater numbers.

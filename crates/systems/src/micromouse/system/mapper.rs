@@ -4,6 +4,7 @@ use tolman_maps::wall_map::ObserveError;
 use tolman_maze::Cell;
 use tolman_robot::{Guess, MapView, Mapper, Position};
 
+use super::maze_mouse::Stop;
 use super::{CellSight, MazeMouse};
 use crate::micromouse::Search;
 use crate::micromouse::grid_map::{grid_map, place_of};
@@ -29,6 +30,15 @@ impl<S: Search> Mapper for MazeMouse<S> {
 
     fn map_bytes(&self) -> Option<usize> {
         Some(self.walls.bytes())
+    }
+
+    fn visits(&self) -> Vec<Option<u32>> {
+        let place = |stop: &Stop| Some(place_of(&self.brief, stop.cell?));
+        self.stops.iter().map(place).collect()
+    }
+
+    fn visit_count(&self) -> usize {
+        self.stops.len()
     }
 
     fn belief(&self) -> Vec<Guess> {

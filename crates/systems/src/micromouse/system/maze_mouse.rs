@@ -2,7 +2,7 @@ use core::f64::consts::FRAC_PI_2;
 
 use tolman_control::heading_of;
 use tolman_geom::{Heading, Pose};
-use tolman_maps::wall_map::{ClosedCells, WallMap};
+use tolman_maps::wall_map::{ClosedCells, ObserveError, WallMap};
 use tolman_maze::{Cell, Direction, Knowledge, Walls};
 use tolman_planners::Unknown;
 use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig};
@@ -28,8 +28,12 @@ use crate::micromouse::{
 ///   that.
 ///
 /// Every action is one cell: the mouse looks at the walls, chooses, and drives to the middle of the
-/// next cell. It gives up if the walls contradict its map, or if the robot does not reach the next
-/// cell.
+/// next cell. It gives up if the robot does not reach the next cell.
+///
+/// - **Carried**: if the view changes while it stands, or walls contradict its map while it
+///   explores, the mouse is lost. It finds its cell on the map so far, and goes on.
+/// - **Doors**: walls that contradict its map while it drives to a goal have moved. The mouse
+///   believes what it sees, and plans again.
 #[derive(Clone, Debug)]
 pub struct MazeMouse<S> {
     pub(super) brief: Brief,
@@ -45,7 +49,25 @@ pub struct MazeMouse<S> {
     pub(super) route: Vec<Direction>,
     /// Belief about the mouse's place after it was put down, until it has localized.
     pub(super) lost: Option<Lost>,
+    /// What is known of the end of each action.
+    pub(super) stops: Vec<Stop>,
+    /// Whether it has come to its cell without having seen it yet.
+    pub(super) has_come: bool,
+    /// Number of times that it was carried while it explored.
+    pub(super) carried: u32,
 }
+
+/// What a mouse knows of the end of an action.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stop {
+    /// Cell where it believes to have been; `None` if it was lost.
+    pub(super) cell: Option<Cell>,
+    /// Whether it learned walls before.
+    has_news: bool,
+}
+
+/// Number of actions that are forgotten when walls contradict the map of an exploring mouse.
+const DOUBTED: usize = 6;
 
 impl MazeMouse<Certify> {
     /// Returns a mouse that explores until it has proven the run of fewest steps, each a turn and
@@ -109,6 +131,9 @@ impl<S: Search> MazeMouse<S> {
             task: None,
             route: Vec::new(),
             lost: None,
+            stops: Vec::new(),
+            has_come: false,
+            carried: 0,
         })
     }
 
@@ -146,10 +171,30 @@ where
         if self.task.replace(task) != Some(task) {
             self.route.clear();
         }
-        if let Some(lost) = self.lost.take() {
-            return self.find_itself(lost, robot, task);
-        }
-        if let Some(standing) = self.look(robot)? {
+        let unknown = self.walls.unknown_count();
+        let standing = match self.lost.take() {
+            Some(lost) => self.find_itself(lost, robot, task),
+            None => self.explore_or_run(robot, task),
+        };
+        self.stops.push(Stop {
+            cell: self.lost.is_none().then_some(self.at),
+            has_news: self.walls.unknown_count() < unknown,
+        });
+        standing
+    }
+
+    fn put_down(&mut self) -> Standing {
+        let known = self.brief.grid.cells();
+        let known = known.filter(|cell| self.walls.visits(*cell) > 0);
+        let known = known.collect();
+        self.lose_itself(known)
+    }
+}
+
+impl<S: Search> MazeMouse<S> {
+    /// Makes the next action of a mouse that knows its cell.
+    fn explore_or_run<R: Body>(&mut self, robot: &mut R, task: Task) -> Result<Standing, R::Error> {
+        if let Some(standing) = self.look(robot, task)? {
             return Ok(standing);
         }
         if self.route.is_empty() {
@@ -168,21 +213,66 @@ where
         }
     }
 
-    fn put_down(&mut self) -> Standing {
-        self.lose_itself()
-    }
-}
-
-impl<S: Search> MazeMouse<S> {
-    /// Takes in the walls visible from here. Returns a standing if there were no ranges, or they
-    /// contradict the map.
-    fn look<R: Body>(&mut self, robot: &mut R) -> Result<Option<Standing>, R::Error> {
+    /// Takes in the walls visible from here. Returns a standing if there were no ranges, or the
+    /// mouse is not where it believed to be.
+    fn look<R: Body>(&mut self, robot: &mut R, task: Task) -> Result<Option<Standing>, R::Error> {
         let cell = self.at;
-        let Some(rays) = self.pilot.look(robot, self.config.middle(cell))? else {
+        let Some(view) = self.pilot.look(robot, self.config.middle(cell))? else {
             return Ok(Some(Standing::UnderWay));
         };
-        let lost = self.observe(&CellSight { cell, rays }).err();
-        Ok(lost.map(|error| Standing::gave_up(error.to_string())))
+        if view.was_carried {
+            return Ok(Some(self.was_carried()));
+        }
+        let seen = CellSight {
+            cell,
+            rays: view.rays,
+        };
+        let contradiction = match task {
+            Task::Reach(_) => self.observe_doors(&seen).err(),
+            Task::Explore | Task::Localize => self.observe(&seen).err(),
+        };
+        Ok(match (contradiction, task) {
+            (None, _) => {
+                if core::mem::take(&mut self.has_come) {
+                    self.walls.visit(cell);
+                }
+                None
+            }
+            (Some(_), Task::Explore) => {
+                // It was carried some cells ago, to where it looked alike.
+                self.forget_lately();
+                Some(self.was_carried())
+            }
+            (Some(error), _) => Some(Standing::gave_up(error.to_string())),
+        })
+    }
+
+    /// Forgets what it saw lately, and where it was.
+    fn forget_lately(&mut self) {
+        let lately = self.stops.iter_mut().rev().take(DOUBTED);
+        let mut news = 0;
+        for stop in lately {
+            news += usize::from(core::mem::take(&mut stop.has_news));
+            if let Some(cell) = stop.cell.take() {
+                self.walls.unvisit(cell);
+            }
+        }
+        self.walls.undo(news);
+    }
+
+    /// Takes in what it sees in place of what it knew of the same walls.
+    fn observe_doors(&mut self, seen: &CellSight) -> Result<(), ObserveError> {
+        loop {
+            match self.observe(seen) {
+                Err(ObserveError::Contradiction {
+                    cell, direction, ..
+                }) if self.brief.grid.neighbour(cell, direction).is_some() => {
+                    self.walls.forget(cell, direction);
+                    self.route.clear();
+                }
+                end => return end,
+            }
+        }
     }
 
     fn turn_to<R: Body>(&mut self, robot: &mut R, heading: Heading) -> Result<Standing, R::Error> {
@@ -200,14 +290,17 @@ impl<S: Search> MazeMouse<S> {
         };
         let target = self.config.middle(next);
         let arrival = self.pilot.drive_to(robot, target)?;
-        self.at = next;
-        self.walls.visit(next);
+        if arrival != Arrival::Carried {
+            self.at = next;
+            self.has_come = true;
+        }
         Ok(self.standing(arrival))
     }
 
-    pub(super) fn standing(&self, arrival: Arrival) -> Standing {
+    pub(super) fn standing(&mut self, arrival: Arrival) -> Standing {
         match arrival {
             Arrival::Arrived => Standing::UnderWay,
+            Arrival::Carried => self.was_carried(),
             Arrival::OutOfPatience => Standing::gave_up(format!(
                 "the robot did not come to rest in {} in {PATIENCE} time steps",
                 self.at

@@ -2,10 +2,11 @@
 
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::wall_map::CellRay;
-use tolman_robot::{Compass, Ranges, Robot, Rolls, TurnTranslate};
+use tolman_robot::{Compass, Ranges, Robot, Rolls, Scan, TurnTranslate};
 
 use super::whereabouts::next_pose;
 use super::{MazeMouseConfig, sight};
+use crate::lifts::{CONTRADICTING, contradiction};
 
 /// Maximum number of time steps of a way from cell to cell, or of a turn.
 pub(super) const PATIENCE: u32 = 100;
@@ -35,6 +36,8 @@ pub(super) enum Arrival {
     Arrived,
     /// The robot has not reached its target after [`PATIENCE`] time steps.
     OutOfPatience,
+    /// The robot was carried on its way.
+    Carried,
 }
 
 /// Drives a robot on the grid, and keeps its believed pose.
@@ -42,11 +45,22 @@ pub(super) enum Arrival {
 pub(super) struct Pilot {
     pose: Pose,
     config: MazeMouseConfig,
+    /// Heading and ranges after the last time step; `None` without ranges.
+    seen: Option<(Heading, Scan)>,
+}
+
+/// What a mouse sees from its cell.
+pub(super) struct View {
+    /// One ray for each side that it sees.
+    pub(super) rays: Vec<CellRay>,
+    /// Whether it was carried.
+    pub(super) was_carried: bool,
 }
 
 impl Pilot {
     pub(super) const fn new(pose: Pose, config: MazeMouseConfig) -> Self {
-        Self { pose, config }
+        let seen = None;
+        Self { pose, config, seen }
     }
 
     /// Returns the robot's believed pose.
@@ -55,22 +69,24 @@ impl Pilot {
     }
 
     /// Sets the believed position; the heading stays the same.
-    pub(super) const fn put_at(&mut self, position: Point) {
+    pub(super) fn put_at(&mut self, position: Point) {
         self.pose.position = position;
+        self.seen = None;
     }
 
-    /// Stands still and returns the view of the walls from the cell with this `middle`; `None` if
-    /// no ranges come.
+    /// Stands still and returns the view from the cell with this `middle`; `None` if no ranges
+    /// come.
     pub(super) fn look<R: Body>(
         &mut self,
         robot: &mut R,
         middle: Point,
-    ) -> Result<Option<Vec<CellRay>>, R::Error> {
+    ) -> Result<Option<View>, R::Error> {
+        let mut was_carried = false;
         for _ in 0..LOOKS {
-            self.step(robot, TurnTranslate::STOP)?;
+            was_carried |= self.step(robot, TurnTranslate::STOP)?;
             if let Some(scan) = robot.sensing().scan() {
-                let rays = sight::rays(scan, self.pose(), middle, &self.config);
-                return Ok(Some(rays));
+                let rays = sight::rays(scan, self.pose, middle, &self.config);
+                return Ok(Some(View { rays, was_carried }));
             }
         }
         Ok(None)
@@ -87,7 +103,9 @@ impl Pilot {
             if off.abs() < AIMED {
                 return Ok(Arrival::Arrived);
             }
-            self.step(robot, self.towards(off, 0.0))?;
+            if self.step(robot, self.towards(off, 0.0))? {
+                return Ok(Arrival::Carried);
+            }
         }
         Ok(Arrival::OutOfPatience)
     }
@@ -110,7 +128,9 @@ impl Pilot {
             } else {
                 0.0
             };
-            self.step(robot, self.towards(off, stride))?;
+            if self.step(robot, self.towards(off, stride))? {
+                return Ok(Arrival::Carried);
+            }
         }
         Ok(Arrival::OutOfPatience)
     }
@@ -124,9 +144,19 @@ impl Pilot {
         }
     }
 
-    fn step<R: Body>(&mut self, robot: &mut R, command: TurnTranslate) -> Result<(), R::Error> {
+    /// Makes a time step. Returns whether the robot was carried: it sees walls where it just saw
+    /// none, or the other way round.
+    fn step<R: Body>(&mut self, robot: &mut R, command: TurnTranslate) -> Result<bool, R::Error> {
+        let from = self.pose.position;
         robot.step(&command)?;
         self.pose = next_pose(self.pose, robot.sensing(), &command, &self.config);
-        Ok(())
+        let scan = robot.sensing().scan();
+        let now = scan.map(|scan| (self.pose.heading, scan.clone()));
+        let before = core::mem::replace(&mut self.seen, now);
+        let moved = self.pose.position - from;
+        let was_carried = before.zip(self.seen.as_ref()).map(|(before, now)| {
+            contradiction((&now.1, now.0), (&before.1, before.0), moved) > CONTRADICTING
+        });
+        Ok(was_carried.unwrap_or(false))
     }
 }

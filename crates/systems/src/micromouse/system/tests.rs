@@ -5,7 +5,7 @@ use core::convert::Infallible;
 
 use tolman_control::heading_of;
 use tolman_geom::{Heading, Pose};
-use tolman_maze::{Cell, Direction, Maze};
+use tolman_maze::{Cell, Direction, Grid, Knowledge, Maze, Walls};
 use tolman_planners::moves::MoveMap;
 use tolman_planners::{Passages, Unknown};
 use tolman_robot::{
@@ -383,7 +383,59 @@ fn what_cannot_be_done_is_given_up_with_a_reason() {
         ..CONFIG
     };
     let why = gives_up(&maze(), config, Task::Explore);
-    assert!(why.contains("known to be"), "{why}");
+    assert!(why.contains("its map"), "{why}");
+}
+
+/// It is carried to every cell, amid its exploration and before its end.
+#[test]
+fn carried_while_it_explores_it_finds_itself_and_explores_the_rest() {
+    let maze = maze();
+    for (number, cell) in maze.reachable().enumerate() {
+        let mut floor = Floor::new(&maze);
+        let mut mouse = MazeMouse::whole_maze(brief(&maze), CONFIG).unwrap();
+        for _ in 0..4 + number % 8 {
+            let Ok(standing) = mouse.act(&mut floor, Task::Explore);
+            assert_eq!(standing, Standing::UnderWay);
+        }
+        floor.pose.position = CONFIG.middle(cell);
+        let (_, end) = pursue(&mut mouse, &mut floor, Task::Explore);
+        assert_eq!(end, Standing::Done, "{cell}");
+        let place = maze.grid().index(floor.cell()) as u32;
+        assert_eq!(mouse.belief()[0].at, Position::Place(place), "{cell}");
+        for cell in maze.reachable() {
+            for side in Direction::ALL {
+                let found = mouse.walls().knowledge(cell, side);
+                assert_eq!(found, maze.knowledge(cell, side), "{side} of {cell}");
+            }
+        }
+        let visits = mouse.visits();
+        assert_eq!(visits.len(), mouse.visit_count());
+    }
+}
+
+/// A door is shut on its way, and another one is opened.
+#[test]
+fn a_mouse_that_meets_a_moved_wall_believes_its_eyes_and_goes_another_way() {
+    let mut maze = Maze::open(Grid::new(4, 3));
+    maze.set_start(Some((Cell::new(0, 0), Direction::North)));
+    maze.set_goals(vec![Cell::new(3, 2)]);
+    let mut floor = Floor::new(&maze);
+    let mut mouse = MazeMouse::whole_maze(brief(&maze), CONFIG).unwrap();
+    let (_, end) = pursue(&mut mouse, &mut floor, Task::Explore);
+    assert_eq!(end, Standing::Done);
+    floor.pose.position = CONFIG.middle(Cell::new(0, 0));
+    mouse.pilot.put_at(floor.pose.position);
+    mouse.at = Cell::new(0, 0);
+    for x in 0..3 {
+        floor.maze.set_wall(Cell::new(x, 1), Direction::North, true);
+    }
+    floor.maze.set_wall(Cell::new(2, 1), Direction::East, true);
+    let (run, end) = pursue(&mut mouse, &mut floor, GOAL);
+    assert_eq!((run.last(), end), (Some(&Cell::new(3, 2)), Standing::Done));
+    assert_eq!(
+        mouse.walls().knowledge(Cell::new(2, 1), Direction::East),
+        Knowledge::Wall
+    );
 }
 
 #[test]

@@ -1,9 +1,10 @@
 use core::f64::consts::FRAC_PI_4;
 
-use tolman_geom::{Heading, Vector};
+use tolman_geom::Heading;
 use tolman_robot::Scan;
 
 use crate::RolledStep;
+use crate::lifts::{CONTRADICTING, contradiction};
 
 /// Readings of the robot at the end of its last action, by which it notices a later lift.
 #[derive(Clone, Debug)]
@@ -14,11 +15,6 @@ pub(super) struct Stop {
 
 /// Difference between a turn by compass and by odometry that is impossible without a lift, rad.
 const UNEXPLAINED_TURN: f64 = FRAC_PI_4;
-/// Distance by which a wall has to be nearer than an earlier clear beam, m: errors of ranges and
-/// wheels stay below it.
-const NEARER: f64 = 0.3;
-/// Share of the beams that have to contradict the other scan.
-const CONTRADICTING: f64 = 0.2;
 
 impl Stop {
     /// Returns the stop with these readings, or `None` if one is missing.
@@ -45,35 +41,8 @@ impl Stop {
             return false;
         };
         let moved = self.heading.turned(0.5 * turned).unit() * odometry.distance;
-        let before = (&self.scan, self.heading);
-        let now = (scan, heading);
-        contradicting(now, before, moved).max(contradicting(before, now, -moved)) > CONTRADICTING
+        contradiction((scan, heading), (&self.scan, self.heading), moved) > CONTRADICTING
     }
-}
-
-/// Returns the share of the beams of one scan that end where the other sees through. `offset` leads
-/// from the other's position to the one's.
-fn contradicting(one: (&Scan, Heading), other: (&Scan, Heading), offset: Vector) -> f64 {
-    let (scan, heading) = one;
-    let ends = (0..)
-        .zip(&scan.ranges)
-        .filter(|(_, range)| **range < scan.ring.max_range);
-    let beams = scan.ranges.len().max(1) as f64;
-    let contradict = ends.filter(|(beam, range)| {
-        let end = offset + heading.turned(scan.ring.bearing(*beam)).unit() * **range;
-        sees_through(other, end)
-    });
-    contradict.count() as f64 / beams
-}
-
-/// Returns whether all beams near the direction of a point reach beyond it. The point is relative
-/// to the scan's position.
-fn sees_through((scan, heading): (&Scan, Heading), at: Vector) -> bool {
-    let bearing = heading.turn_to(Heading::of(at));
-    [-1, 0, 1].into_iter().all(|beside| {
-        let range = scan.range_towards(bearing, beside);
-        range.is_some_and(|range| range > at.norm() + NEARER)
-    })
 }
 
 #[cfg(test)]
