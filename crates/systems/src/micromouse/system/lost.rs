@@ -23,6 +23,7 @@ pub(super) struct Lost {
     middle: Point,
     /// Number of visits to each cell since it was lost, by its offset from the first one.
     visits: BTreeMap<[i32; 2], u32>,
+    /// Offset of its cell from the first one.
     at: [i32; 2],
 }
 
