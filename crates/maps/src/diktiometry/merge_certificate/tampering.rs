@@ -16,7 +16,7 @@ use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld, MoveNoise};
 
 use super::look_evidence::look_alike;
 use super::{
-    CertifiedMerges, LookEvidence, MergeCertificate, MergeCertificateError, MergeProof,
+    CertifiedMerges, Identities, LookEvidence, MergeCertificate, MergeCertificateError, MergeProof,
     certify_merges, verify_merges,
 };
 use crate::diktiometry::{
@@ -67,22 +67,22 @@ impl Walked {
         verify_merges(&self.config, &self.journal, &certificates)
     }
 
-    /// Returns whether a certificate is true by the world itself: its visits were to one place, and
-    /// looks agree by coincidence as rarely as it states.
-    fn is_true(&self, certificate: &MergeCertificate) -> bool {
+    /// Returns whether a certificate in the place of another is true by the world itself: its visits
+    /// were to one place, and looks agree by coincidence as rarely as it states.
+    fn is_true(&self, number: usize, certificate: &MergeCertificate) -> bool {
         let [one, other] = certificate.visits.map(|visit| self.truth[visit]);
         let is_stated_right = match &certificate.proof {
             MergeProof::Bounds(_) => true,
             MergeProof::Looks(evidence) => {
                 are_parts(&evidence.looks)
-                    && (self.coincidence(evidence) - evidence.chance).abs() < 1e-6
+                    && (self.coincidence(number, evidence) - evidence.chance).abs() < 1e-6
             }
         };
         one == other && is_stated_right
     }
 
-    /// Returns the probability of a coincidence, computed without the certificates' code.
-    fn coincidence(&self, evidence: &LookEvidence) -> f64 {
+    /// Returns the probability of a coincidence, computed without the certificates' code for it.
+    fn coincidence(&self, number: usize, evidence: &LookEvidence) -> f64 {
         let first = |index: usize| evidence.pairs[index].visits[0];
         let is_new = |index: &usize| {
             let mut before = 0..*index;
@@ -91,7 +91,31 @@ impl Walked {
         };
         let agreeing = (0..evidence.pairs.len()).filter(is_new).count();
         let others = f64::from(evidence.looks.kinds) + 2.0;
-        (others * mean_power(&evidence.looks, agreeing)).min(1.0)
+        let by_rule = rule_power(&evidence.looks, self.paired(number, evidence));
+        (others * mean_power(&evidence.looks, agreeing).max(by_rule)).min(1.0)
+    }
+
+    /// Returns the number of pairs of which no place is in a pair before, by the identities that
+    /// the certificates before this one prove.
+    fn paired(&self, number: usize, evidence: &LookEvidence) -> usize {
+        let mut known = Identities::new(&self.config);
+        for step in &self.journal.moves {
+            known.arrive(step.action);
+        }
+        for certificate in &self.certificates[..number] {
+            known.join(certificate.visits[0], certificate.visits[1]);
+        }
+        let mut used: Vec<usize> = Vec::new();
+        for pair in &evidence.pairs {
+            if !pair
+                .visits
+                .iter()
+                .any(|visit| used.iter().any(|other| known.same(*visit, *other)))
+            {
+                used.extend(pair.visits);
+            }
+        }
+        used.len() / 2
     }
 }
 
@@ -109,8 +133,7 @@ fn are_parts(looks: &Looks) -> bool {
 }
 
 /// Returns the mean of pᵏ, where p has the beta distribution that the counts give with Jeffreys'
-/// prior, by an integral over p = sin² θ. It is at least the power of the rate at which neighbours
-/// repeat.
+/// prior, by an integral over p = sin² θ.
 fn mean_power(looks: &Looks, agreeing: usize) -> f64 {
     let kinds = f64::from(looks.kinds);
     let pairs = f64::from(looks.different).min(0.5 * kinds * (kinds - 1.0));
@@ -127,9 +150,13 @@ fn mean_power(looks: &Looks, agreeing: usize) -> f64 {
         let middle = |step: u32| (f64::from(step) + 0.5) * FRAC_PI_2 / f64::from(steps);
         (0..steps).map(|step| weight(middle(step), power)).sum()
     };
+    integral(agreeing as f64) / integral(0.0)
+}
+
+/// Returns the power of the rate at which neighbours of places that look alike do so, too.
+fn rule_power(looks: &Looks, places: usize) -> f64 {
     let repeats = f64::from(looks.repeating) / (f64::from(looks.followed) + 2.0);
-    let by_rule = libm::pow(repeats, agreeing as f64);
-    (integral(agreeing as f64) / integral(0.0)).max(by_rule)
+    (0..places).map(|_| repeats).product()
 }
 
 fn config() -> Config {
@@ -344,7 +371,7 @@ proptest! {
         prop_assume!(!walked.certificates.is_empty());
         let number = which.index(walked.certificates.len());
         let certificate = &walked.certificates[number];
-        prop_assert!(walked.is_true(certificate), "{:?}", certificate);
+        prop_assert!(walked.is_true(number, certificate), "{:?}", certificate);
         // Numbers of visits, mostly.
         let any = any % (2 * MOVES as u64);
         for mut forged in changed(certificate, any) {
@@ -353,7 +380,7 @@ proptest! {
                 continue; // The seal alone was changed.
             }
             let found = walked.verify_with(number, forged.clone());
-            prop_assert!(found.is_err() || walked.is_true(&forged), "{:?}", forged);
+            prop_assert!(found.is_err() || walked.is_true(number, &forged), "{:?}", forged);
             prop_assert!(found.is_err() || forged.rests_on_looks == certificate.rests_on_looks, "{:?}", forged);
             if let Err(error) = found {
                 let named = format!("certificate {number} ");
