@@ -17,11 +17,11 @@ use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld, MoveNoise};
 use super::look_evidence::look_alike;
 use super::{
     CertifiedMerges, Identities, LookEvidence, MergeCertificate, MergeCertificateError, MergeProof,
-    certify_merges, verify_merges,
+    certify_merges, verifier, verify_merges,
 };
 use crate::diktiometry::{
     Action, Apart, Config, Exits, FirstPlace, Journal, JournalLength, Looks, MoveOutcome,
-    ObservedMove, Observer, Percepts, Signature, SignatureKind, Use, ViewRotation, WorldKind,
+    ObservedMove, Observer, Signature, Use,
 };
 
 const MOVES: usize = 400;
@@ -160,17 +160,9 @@ fn rule_power(looks: &Looks, places: usize) -> f64 {
 }
 
 fn config() -> Config {
-    let mut config = Config::new(Config::corridor_actions(), 1.0);
-    config.percepts = Percepts::Signatures(SignatureKind {
-        rows: 1,
-        columns: 4,
-        tolerance: 0.4,
-        share: 1.0,
-        rotation: ViewRotation::Aligned,
-        views: 2,
-    });
+    let mut config = verifier::tests::config();
+    config.actions = Config::corridor_actions();
     config.journal = JournalLength::All;
-    config.world = WorldKind::Static;
     config.apart = Apart::Side;
     config.restructuring.look_merge = Use::On;
     config

@@ -304,7 +304,7 @@ pub(super) fn least_distance([one, other]: [usize; 2], config: &Config, journal:
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use alloc::vec;
 
     use tolman_geom::PoseBox;
@@ -319,7 +319,8 @@ mod tests {
     const EAST: Action = Action(1);
     const WEST: Action = Action(3);
 
-    fn config() -> Config {
+    /// Returns a mapper of places with a colour to each side, in a world that stays as it is.
+    pub(in super::super) fn config() -> Config {
         let mut config = Config::new(Config::compass_actions(), 1.0);
         config.world = WorldKind::Static;
         config.percepts = Percepts::Signatures(SignatureKind {
