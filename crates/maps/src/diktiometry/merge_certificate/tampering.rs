@@ -67,8 +67,8 @@ impl Walked {
         verify_merges(&self.config, &self.journal, &certificates)
     }
 
-    /// Returns whether a certificate in the place of another is true by the world itself: its visits
-    /// were to one place, and looks agree by coincidence as rarely as it states.
+    /// Returns whether a certificate in the place of this one is true by the world itself: its
+    /// visits were to one place, and looks agree by coincidence as rarely as it states.
     fn is_true(&self, number: usize, certificate: &MergeCertificate) -> bool {
         let [one, other] = certificate.visits.map(|visit| self.truth[visit]);
         let is_stated_right = match &certificate.proof {
