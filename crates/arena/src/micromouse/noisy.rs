@@ -31,14 +31,45 @@ pub struct NoisyConfig {
     pub range: f64,
     /// Standard deviation of a range as a share of the range, at least 0.
     pub relative_range: f64,
+    /// Size of the mouse and of its maze.
+    pub size: MouseSize,
+}
+
+/// Size of a mouse and of its maze. A half-size mouse has half the lengths of a classic one: its
+/// body, its steps, the reach of its sensors. So noise of a given length hurts it twice as much.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MouseSize {
+    /// Cells of 18 cm, walls of 12 mm.
+    #[default]
+    Classic,
+    /// Cells of 9 cm, walls of 6 mm.
+    Half,
+}
+
+impl MouseSize {
+    /// Returns its lengths as a share of a classic mouse's.
+    const fn scale(self) -> f64 {
+        match self {
+            Self::Classic => 1.0,
+            Self::Half => 0.5,
+        }
+    }
+
+    fn corridors(self) -> CorridorSize {
+        CorridorSize {
+            corridor_width: 0.168 * self.scale(),
+            wall_thickness: 0.012 * self.scale(),
+        }
+    }
 }
 
 impl NoisyConfig {
     /// Returns ordinary noise times `level`. Wheels slip by up to a tenth, like those of Webots,
-    /// and drift by 0.2 rad/m; ranges err by 3 mm and 2 %.
+    /// and drift by 0.2 rad/m; ranges err by 3 mm and 2 %. The mouse is a classic one.
     #[must_use]
     pub fn ordinary(localization: PoseSource, level: f64) -> Self {
         Self {
+            size: MouseSize::Classic,
             localization,
             slip: 0.1 * level,
             drift: 0.2 * level,
@@ -47,15 +78,16 @@ impl NoisyConfig {
         }
     }
 
-    /// Returns a body of 8 cm, three range sensors that reach 1 m, 2 cm and 0.2 rad in a time step
-    /// of 20 ms.
+    /// Returns a classic mouse: a body of 8 cm, three range sensors that reach 1 m, 2 cm and 0.2
+    /// rad in a time step of 20 ms. A half-size one has half of each length.
     fn robot(&self) -> LaserPioneerConfig {
+        let scale = self.size.scale();
         let slip = Fault::Slip { share: self.slip };
         let mut robot = LaserPioneerConfig::noiseless();
-        robot.radius = 0.04;
-        robot.ring = Ring::fan(3, core::f64::consts::PI, 1.0);
+        robot.radius = 0.04 * scale;
+        robot.ring = Ring::fan(3, core::f64::consts::PI, scale);
         robot.turn_per_step = 0.2;
-        robot.translate_per_step = 0.02;
+        robot.translate_per_step = 0.02 * scale;
         robot.motor_noise.drift_sd = self.drift;
         robot.scan_noise = Gaussian {
             absolute_sd: self.range,
@@ -69,36 +101,34 @@ impl NoisyConfig {
 
     /// Returns the mouse's configuration: its model of its body and its maze.
     fn mouse(&self, robot: &LaserPioneerConfig) -> NoisyMouseConfig {
-        let mut mouse =
-            NoisyMouseConfig::new(SIZE.pitch(), robot.turn_per_step, robot.translate_per_step);
+        let corridors = self.size.corridors();
+        let mut mouse = NoisyMouseConfig::new(
+            corridors.pitch(),
+            robot.turn_per_step,
+            robot.translate_per_step,
+        );
         mouse.localization = self.localization;
         mouse.filter = self.filter();
-        mouse.wall_thickness = SIZE.wall_thickness;
+        mouse.wall_thickness = corridors.wall_thickness;
         mouse
     }
 
     /// Returns the noise model of the filter: the true noise, plus a little for what the model
     /// leaves out.
     fn filter(&self) -> PoseFilterConfig {
-        let mut filter = PoseFilterConfig::for_pitch(SIZE.pitch());
+        let mut filter = PoseFilterConfig::for_pitch(self.size.corridors().pitch());
         // The standard deviation of a uniform number in ± 1.
         filter.slip = 0.577 * self.slip + 0.01;
         filter.drift = self.drift + 0.02;
-        filter.spread = 0.0005;
+        filter.spread = 0.0005 * self.size.scale();
         filter.sensor = RangeModel {
-            absolute: self.range + 0.004,
+            absolute: self.range + 0.004 * self.size.scale(),
             relative: self.relative_range + 0.01,
             outliers: 0.1,
         };
         filter
     }
 }
-
-/// A maze of the competitions: cells of 18 cm, walls of 12 mm.
-const SIZE: CorridorSize = CorridorSize {
-    corridor_width: 0.168,
-    wall_thickness: 0.012,
-};
 
 /// Result of a noisy mouse.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -185,7 +215,7 @@ impl<'a> Outing<'a> {
     fn new(maze: &'a Maze, config: &NoisyConfig, seed: u64) -> Result<Self, NoisyError> {
         let robot = config.robot();
         let mouse = NoisyMouse::new(brief(maze)?, config.mouse(&robot), seed)?;
-        let world = World::from_maze(maze, &SIZE)?;
+        let world = World::from_maze(maze, &config.size.corridors())?;
         let body = Solo::new(world, LaserPioneer::new(robot)?, mouse.start(), seed)?;
         Ok(Self {
             maze,

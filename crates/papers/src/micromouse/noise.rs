@@ -4,7 +4,7 @@
 use tolman_maze::{Braided, Maze};
 
 use super::check_score;
-use tolman_arena::micromouse::noisy::{self, NoisyConfig, NoisyEnd};
+use tolman_arena::micromouse::noisy::{self, MouseSize, NoisyConfig, NoisyEnd};
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
 use tolman_experiment::{BoxError, Fields, Job, Options, Record, Row, Run, Table, record, require};
 use tolman_systems::micromouse::noisy::PoseSource;
@@ -23,6 +23,9 @@ const LOCALIZATIONS: [(PoseSource, &str); 2] = [
 
 /// Noise levels at which larger mazes are tried, with the particle filter.
 const LARGER: [u32; 4] = [1, 2, 4, 6];
+
+/// Noise levels at which a half-size mouse is tried, with the particle filter.
+const HALF_SIZE: [u32; 3] = [2, 4, 6];
 
 /// Default number of mazes of each row, the same for all rows of a size.
 const MAZES: u32 = 200;
@@ -104,7 +107,16 @@ fn mice() -> impl Iterator<Item = Mouse> {
         side: 16,
         config: NoisyConfig::ordinary(PoseSource::ParticleFilter, level.into()),
     });
-    small.chain(larger)
+    let half_size = HALF_SIZE.map(|level| {
+        let mut config = NoisyConfig::ordinary(PoseSource::ParticleFilter, level.into());
+        config.size = MouseSize::Half;
+        Mouse {
+            row: row("half-size", level.into()),
+            side: 32,
+            config,
+        }
+    });
+    small.chain(larger).chain(half_size)
 }
 
 /// Returns the maze of a run, whose seed is the same in all rows.
