@@ -75,6 +75,7 @@ mod self_check;
 mod signature;
 mod track;
 mod updater;
+mod winding;
 
 pub use config::{
     ActionKind, Apart, CompassAxis, Config, DiktiometryConfigError, GeometricIndexing,
@@ -96,7 +97,7 @@ pub use map_file::{MapFile, MapFileError};
 pub use matching::Matcher;
 pub use merge_certificate::{
     CertifiedMerges, JournalSpan, LookEvidence, LookPair, MergeCertificate, MergeCertificateError,
-    MergeProof, certify_merges, verify_merges,
+    MergeProof, WindingEvidence, certify_merges, verify_merges,
 };
 pub use observation::{Exits, FirstPlace, MoveOutcome, ObservedMove};
 pub use observer::Observer;
@@ -123,3 +124,4 @@ use projector::Projection;
 use reference_graph::{Reached, search};
 use restructuring::{Hints, deposit, elide_place, learn_of_two, restructure, wanted_anywhere};
 use updater::merge_estims;
+use winding::{Chain, Corridors, Turns, is_rectangle};

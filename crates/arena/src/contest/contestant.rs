@@ -3,7 +3,7 @@ use std::sync::OnceLock;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::{Heading, Point, Pose};
-use tolman_maps::diktiometry::{JournalLength, Use};
+use tolman_maps::diktiometry::JournalLength;
 use tolman_maze::{Maze, MazeFile};
 use tolman_robot::Ring;
 use tolman_sim::robots::{Epuck, LaserPioneer, LaserPioneerConfig, Pioneer2dx, Pioneer2dxConfig};
@@ -453,7 +453,7 @@ impl Contestant {
         let mut mapping = mapper(&office, &config);
         if self == Self::DiktiometryBetter {
             mapping.journal = JournalLength::All;
-            mapping.restructuring.look_merge = Use::On;
+            mapping.restructuring.beyond_paper();
         }
         let paper = DiktiometerConfig::paper(routines, mapping);
         let course = office.course.clone();

@@ -68,7 +68,7 @@ pub fn mapper(office: &Office, robot: &SurveyorConfig) -> Config {
     // The map is in metres of the odometry.
     config.shared_scale = robot.shared_share;
     config.place_radius = robot.place_radius * (1.0 + robot.shared_share);
-    // Corridors follow the axes of the compass, and walls never move.
+    // Corridors follow the axes of the compass, a pitch apart, and walls never move.
     config.apart = Apart::Side;
     config.world = WorldKind::Static;
     match robot.sight {

@@ -127,12 +127,13 @@ pub enum WorldKind {
 }
 
 /// Whether a part is active; off for ablations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Use {
     /// The part is active.
     On,
     /// The part is left out.
+    #[default]
     Off,
 }
 
@@ -349,6 +350,19 @@ pub struct Restructuring {
     pub look_merge: Use,
     /// Maximum probability of a wrong merge by looks, 0 < … < 1.
     pub look_error: f64,
+    /// Merging round rectangles, beyond the paper. Every place has to lie δ_sep or more beside the
+    /// corridors that do not lead to it.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub winding_merge: Use,
+}
+
+impl Restructuring {
+    /// Merges by looks and by turns, beyond the paper. Corridors have to lie δ_sep apart, and the
+    /// robot must not overlook a junction.
+    pub const fn beyond_paper(&mut self) {
+        self.look_merge = Use::On;
+        self.winding_merge = Use::On;
+    }
 }
 
 /// Geometric condition for merging two places.
@@ -466,6 +480,7 @@ impl Config {
                 look_merge: Use::Off,
                 // Some hundreds of merges are weighed in a run; the bounds behind it are wide.
                 look_error: 1e-4,
+                winding_merge: Use::Off,
             },
             opportunities: Opportunities {
                 unknown: Use::On,

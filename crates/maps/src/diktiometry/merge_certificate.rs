@@ -1,12 +1,15 @@
 //! Issues and checks certificates: evidence that two nodes of the map are one place.
 //!
-//! Beyond the paper. A merge rests on one of two grounds, and on the assumptions about the robot
+//! Beyond the paper. A merge rests on one of three grounds, and on the assumptions about the robot
 //! and the world in [`Config`]:
 //!
 //! - *bounds* ([`MergeProof::Bounds`]): routes through the journal bring the two nearer to each
 //!   other than two places can be. It is a proof under three conditions. The bounds of odometry
 //!   hold, places are δ_sep apart in the sense of [`Apart`](super::Apart), and corridors are as
 //!   straight as stated;
+//! - *winding* ([`MergeProof::Winding`]): like turns lead from one to the other, along corridors
+//!   whose lengths no spiral has. It is a proof if, besides, every place lies δ_sep or more beside
+//!   the corridors that do not lead to it, and the robot overlooks no junction;
 //! - *looks* ([`MergeProof::Looks`]): the two look alike, and so do the places that the same
 //!   actions lead to. It states the probability of being wrong.
 //!
@@ -29,6 +32,7 @@ mod seal;
 #[cfg(feature = "serde")]
 mod tampering;
 mod verifier;
+mod winding_evidence;
 
 use alloc::vec::Vec;
 use core::iter;
@@ -70,8 +74,23 @@ pub enum MergeProof {
     /// each route, and the intersection has no room for two places. A route without spans stays at
     /// its place: the two are one by the ways of a static world alone.
     Bounds(Vec<Vec<JournalSpan>>),
+    /// Like turns lead round a rectangle.
+    Winding(WindingEvidence),
     /// Looks agree along the same actions.
     Looks(LookEvidence),
+}
+
+/// A chain of corners with like turns, on which the two visits are four corners apart.
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+pub struct WindingEvidence {
+    /// A visit to each corner.
+    pub corners: Vec<usize>,
+    /// Actions along the first two corridors, which give all others.
+    pub begins: [Action; 2],
+    /// For each corridor, routes from its first corner to its second, as in
+    /// [`MergeProof::Bounds`].
+    pub corridors: Vec<Vec<Vec<JournalSpan>>>,
 }
 
 /// Successive moves of the journal, as a part of a route.
@@ -106,6 +125,21 @@ pub struct LookPair {
     /// Number of the earlier pair from whose places one action leads to these, with the action.
     /// `None` for the first pair.
     pub after: Option<(usize, Action)>,
+}
+
+/// Returns the box of the displacement by all of several routes, m. `None` if a span has no known
+/// bounds, or if the routes exclude each other.
+fn box_of(
+    routes: &[Vec<JournalSpan>],
+    moves: &[ObservedMove],
+    config: &Config,
+) -> Option<PointBox> {
+    let along = |route: &Vec<JournalSpan>| {
+        let mut spans = route.iter().map(|span| span.displacement(moves, config));
+        spans.try_fold(PointBox::ORIGIN, |sum, way| Some(sum + way?))
+    };
+    let mut boxes = routes.iter().map(along);
+    boxes.try_fold(PointBox::UNBOUNDED, |known, one| known.intersection(one?))
 }
 
 /// Returns whether each route joins two visits, with only known identities between its spans.

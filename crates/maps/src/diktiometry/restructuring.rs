@@ -8,6 +8,7 @@ mod non_local_path;
 mod one_way;
 mod split;
 mod transients;
+mod winding;
 
 use alloc::vec::Vec;
 
@@ -159,10 +160,11 @@ fn separates(map: &Diktiometry, distinction: &Distinction, pair: &geometric::Pai
 type Restructurer = fn(&Diktiometry, &geometric::Pair, &Config) -> Verdict;
 
 /// Restructurers in the order in which they are asked, until one rejects.
-const RESTRUCTURERS: [Restructurer; 6] = [
+const RESTRUCTURERS: [Restructurer; 7] = [
     geometric::merge,
     views_differ,
     one_way::merge,
+    winding::merge,
     local_path::merge,
     non_local_path::merge,
     look_agreement::merge,

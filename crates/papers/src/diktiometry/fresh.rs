@@ -10,7 +10,7 @@ use tolman_arena::diktiometry::{
 };
 use tolman_experiment::{BoxError, Fields, Metric, Options, Record, Row, Table, record, require};
 use tolman_maps::diktiometry::{
-    CertifiedMerges, Config, Identity, JournalLength, MapState, MergeProof, Use, certify_merges,
+    CertifiedMerges, Config, Identity, JournalLength, MapState, MergeProof, certify_merges,
     verify_merges,
 };
 use tolman_maze::drawings::{eight, ladder_of, office, ring, spiral};
@@ -86,10 +86,10 @@ impl FreshRow {
         Self { furniture, ..self }
     }
 
-    /// Returns the row with looks as evidence.
+    /// Returns the row with looks and turns as evidence.
     const fn by_looks(self) -> Self {
         Self {
-            change: |config| config.restructuring.look_merge = Use::On,
+            change: |config| config.restructuring.beyond_paper(),
             ..self
         }
     }
@@ -226,11 +226,11 @@ record! {
         link_recall: f64 => higher("link recall").share().decimals(3),
         /// Share of the map's links that lead where their action truly leads.
         link_precision: f64 => higher("link precision").share().decimals(4),
-        /// Number of merges proven by bounds, each checked against the journal.
+        /// Number of merges proven by bounds or by turns, each checked against the journal.
         geometric_certificates: Option<usize> => neither("proofs by bounds"),
         /// Number of these that join two true places.
         false_geometric: Option<usize> => lower("false proofs by bounds"),
-        /// Number of merges proven by bounds through places that are one by looks.
+        /// Number of merges proven by bounds or by turns through places that are one by looks.
         bounds_after_looks: Option<usize> => neither("proofs by bounds after looks"),
         /// Number of these that join two true places.
         false_after_looks: Option<usize> => lower("false proofs by bounds after looks"),
@@ -431,15 +431,15 @@ impl FreshRun {
             let [one, other] = certificate.visits.map(site);
             let wrong = usize::from(one != other);
             let (all, bad) = match &certificate.proof {
-                MergeProof::Bounds(_) if certificate.rests_on_looks => {
-                    (&mut run.bounds_after_looks, &mut run.false_after_looks)
-                }
-                MergeProof::Bounds(_) => {
-                    (&mut run.geometric_certificates, &mut run.false_geometric)
-                }
                 MergeProof::Looks(evidence) => {
                     run.stated_chances = run.stated_chances.map(|sum| sum + evidence.chance);
                     (&mut run.look_certificates, &mut run.false_looks)
+                }
+                _ if certificate.rests_on_looks => {
+                    (&mut run.bounds_after_looks, &mut run.false_after_looks)
+                }
+                MergeProof::Bounds(_) | MergeProof::Winding(_) => {
+                    (&mut run.geometric_certificates, &mut run.false_geometric)
                 }
             };
             *all = all.map(|count| count + 1);

@@ -10,7 +10,7 @@ use super::ablations::{ABLATIONS, Change, papers_rule};
 use tolman_arena::diktiometry::{Office, OfficeConfig, SurveyConfig, SurveyorConfig, blocks};
 use tolman_arena::pioneer;
 use tolman_experiment::BoxError;
-use tolman_maps::diktiometry::{Use, WorldKind};
+use tolman_maps::diktiometry::WorldKind;
 
 /// Exploration probability in the paper: "Generally 30% of the time".
 pub(super) const HEED: f64 = 0.3;
@@ -195,7 +195,7 @@ fn mslst(row: &'static str, text: &str) -> Result<Setting, BoxError> {
     let office = Arc::new(Office::new(&file.maze, &furniture)?);
     let mut config = SurveyConfig::of(&office, SurveyorConfig::mslst(), 300);
     // Corridors of thirteen cells leave room for several places: geometry alone proves no loop.
-    config.mapper.restructuring.look_merge = Use::On;
+    config.mapper.restructuring.beyond_paper();
     Ok(Setting::scripted(row, &office, config))
 }
 

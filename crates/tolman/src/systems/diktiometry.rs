@@ -14,7 +14,7 @@ use tolman_arena::run::InRun;
 use tolman_arena::{BoxError, Outing, RobotFacts, Sent};
 use tolman_draw::Drawing;
 use tolman_geom::{Heading, Point, Pose};
-use tolman_maps::diktiometry::{Action, JournalLength, Link, PlaceId, Use};
+use tolman_maps::diktiometry::{Action, JournalLength, Link, PlaceId};
 use tolman_maze::Direction;
 use tolman_papers::diktiometry::drawing::map_over_world;
 use tolman_robot::{Guess, Landmark, MapView, Mapper, Scan, SensesLandmarks, Standing, Task};
@@ -137,7 +137,7 @@ impl SystemEntry for DiktiometryEntry {
         let mut config = SurveyConfig::of(&office, robot, learning.moves);
         config.heed = learning.heed;
         config.mapper.journal = JournalLength::All;
-        config.mapper.restructuring.look_merge = Use::On;
+        config.mapper.restructuring.beyond_paper();
         let survey = Survey::new(&office, config, setup.seed)?;
         Ok(Box::new(Surveying {
             survey,

@@ -1,16 +1,16 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
-use tolman_geom::PointBox;
-
 use super::look_evidence::look_alike;
 use super::verifier::least_distance;
+use super::winding_evidence::KnownCorridors;
 use super::{
     Constraints, Identities, JournalSpan, LONGEST, LookEvidence, LookPair, MergeCertificate,
-    MergeProof, connect,
+    MergeProof, WindingEvidence, box_of, connect,
 };
 use crate::diktiometry::{
-    Config, Journal, JournalError, Looks, MoveOutcome, Observer, PlaceId, Restructured, StepReport,
+    Chain, Config, Journal, JournalError, Looks, MoveOutcome, Observer, PlaceId, Restructured,
+    StepReport,
 };
 
 /// Certificates for the merges of a map.
@@ -145,9 +145,11 @@ impl Prover<'_> {
 
     /// Returns whether a claim is known to be true by now.
     fn settle(&mut self, claim: &[[usize; 2]], looks: Looks) -> bool {
-        let proven = claim.iter().find_map(|pair| self.by_bounds(*pair));
+        let certificate = claim.iter().find_map(|pair| self.by_bounds(*pair));
         let certificate =
-            proven.or_else(|| claim.iter().find_map(|pair| self.by_looks(*pair, looks)));
+            certificate.or_else(|| claim.iter().find_map(|pair| self.by_winding(*pair)));
+        let certificate =
+            certificate.or_else(|| claim.iter().find_map(|pair| self.by_looks(*pair, looks)));
         let Some(certificate) = certificate else {
             return false;
         };
@@ -165,20 +167,26 @@ impl Prover<'_> {
         let visits = self.alike(pair).unwrap_or(pair);
         let [from, to] = pair.map(|visit| self.identities.find(visit));
         let routes = self.constraints.routes(from, to);
-        let boxes = routes.iter().map(|route| {
-            let mut spans = route
-                .iter()
-                .map(|span| span.displacement(&self.journal.moves, self.config));
-            spans.try_fold(PointBox::ORIGIN, |sum, way| Some(sum + way?))
-        });
-        let between = boxes
-            .into_iter()
-            .try_fold(PointBox::UNBOUNDED, |known, one| known.intersection(one?))?;
+        let between = box_of(&routes, &self.journal.moves, self.config)?;
         let least = least_distance(visits, self.config, self.journal);
         let rests_on_looks = !connect(visits, &routes, &self.proven);
         let proof = MergeProof::Bounds(routes);
         (self.config.apart.most(between) < least)
             .then(|| MergeCertificate::sealed(visits, proof, rests_on_looks))
+    }
+
+    fn by_winding(&mut self, pair: [usize; 2]) -> Option<MergeCertificate> {
+        let known = KnownCorridors {
+            identities: &self.identities,
+            journal: self.journal,
+        };
+        let ends = pair.map(|visit| self.identities.find(visit));
+        let chain = Chain::through(&known, ends, self.config)?;
+        let routes = |[from, to]: [usize; 2]| self.constraints.routes(from, to);
+        let evidence = WindingEvidence::of(&chain, self.config, self.journal, routes)?;
+        let rests_on_looks = !evidence.joins(pair, &self.proven, self.config);
+        let proof = MergeProof::Winding(evidence);
+        Some(MergeCertificate::sealed(pair, proof, rests_on_looks))
     }
 
     fn by_looks(&self, pair: [usize; 2], looks: Looks) -> Option<MergeCertificate> {

@@ -1,4 +1,6 @@
-use super::{JournalSpan, LookEvidence, MergeCertificate, MergeProof};
+use alloc::vec::Vec;
+
+use super::{JournalSpan, LookEvidence, MergeCertificate, MergeProof, WindingEvidence};
 use crate::diktiometry::Action;
 
 /// A checksum of numbers: FNV-1a, 64 bits (Fowler, Noll and Vo). It detects accidental changes, and
@@ -16,6 +18,17 @@ impl Seal {
         numbers
             .into_iter()
             .for_each(|number| self.take(number as u64));
+    }
+
+    fn take_routes(&mut self, routes: &[Vec<JournalSpan>]) {
+        self.take_all([routes.len()]);
+        for route in routes {
+            self.take_all([route.len()]);
+            let ends = route
+                .iter()
+                .flat_map(|JournalSpan { begin, end }| [*begin, *end]);
+            self.take_all(ends);
+        }
     }
 }
 
@@ -39,14 +52,12 @@ impl MergeCertificate {
         seal.take_all([usize::from(self.rests_on_looks)]);
         match &self.proof {
             MergeProof::Bounds(routes) => {
-                seal.take_all([0, routes.len()]);
-                for route in routes {
-                    seal.take_all([route.len()]);
-                    let ends = route
-                        .iter()
-                        .flat_map(|JournalSpan { begin, end }| [*begin, *end]);
-                    seal.take_all(ends);
-                }
+                seal.take_all([0]);
+                seal.take_routes(routes);
+            }
+            MergeProof::Winding(evidence) => {
+                seal.take_all([2]);
+                evidence.sum_up(&mut seal);
             }
             MergeProof::Looks(evidence) => {
                 seal.take_all([1]);
@@ -54,6 +65,17 @@ impl MergeCertificate {
             }
         }
         seal.0
+    }
+}
+
+impl WindingEvidence {
+    fn sum_up(&self, seal: &mut Seal) {
+        seal.take_all([self.corners.len()]);
+        seal.take_all(self.corners.iter().copied());
+        seal.take_all(self.begins.map(|Action(action)| action as usize));
+        self.corridors
+            .iter()
+            .for_each(|routes| seal.take_routes(routes));
     }
 }
 

@@ -11,7 +11,8 @@ use proptest::prelude::*;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use serde_json::{Value, json};
-use tolman_maze::{Braided, Direction};
+use tolman_maze::drawings::ring;
+use tolman_maze::{Braided, Direction, Maze};
 use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld, MoveNoise};
 
 use super::look_evidence::look_alike;
@@ -44,7 +45,17 @@ impl Walked {
             share: 1.0,
         };
         let maze = shape.generate(&mut ChaCha8Rng::seed_from_u64(seed));
-        let world = AbstractWorld::from_corridors(&maze.unwrap(), 1.0).painted(colours, seed);
+        Self::through(&maze.unwrap(), colours, seed)
+    }
+
+    /// Walks round a ring.
+    fn round(colours: u32, seed: u64) -> Self {
+        let ring = ring((8, 8), &mut ChaCha8Rng::seed_from_u64(seed));
+        Self::through(&ring.unwrap(), colours, seed)
+    }
+
+    fn through(maze: &Maze, colours: u32, seed: u64) -> Self {
+        let world = AbstractWorld::from_corridors(maze, 1.0).painted(colours, seed);
         let config = config();
         let (journal, truth) = walk(world, &config, seed);
         let CertifiedMerges { certificates, .. } = certify_merges(&config, &journal).unwrap();
@@ -72,7 +83,7 @@ impl Walked {
     fn is_true(&self, number: usize, certificate: &MergeCertificate) -> bool {
         let [one, other] = certificate.visits.map(|visit| self.truth[visit]);
         let is_stated_right = match &certificate.proof {
-            MergeProof::Bounds(_) => true,
+            MergeProof::Bounds(_) | MergeProof::Winding(_) => true,
             MergeProof::Looks(evidence) => {
                 are_parts(&evidence.looks)
                     && (self.coincidence(number, evidence) - evidence.chance).abs() < 1e-6
@@ -165,6 +176,7 @@ fn config() -> Config {
     config.journal = JournalLength::All;
     config.apart = Apart::Side;
     config.restructuring.look_merge = Use::On;
+    config.restructuring.winding_merge = Use::On;
     config
 }
 
@@ -304,7 +316,11 @@ fn fields(value: &Value) -> BTreeSet<String> {
 }
 
 fn any_walk() -> impl Strategy<Value = Walked> {
-    (1_u32..9, 0_u64..1000).prop_map(|(colours, seed)| Walked::new(colours, seed))
+    let walk = |(is_ring, colours, seed)| {
+        let walk = if is_ring { Walked::round } else { Walked::new };
+        walk(colours, seed)
+    };
+    (prop::bool::weighted(0.25), 1_u32..9, 0_u64..1000).prop_map(walk)
 }
 
 impl core::fmt::Debug for Walked {
@@ -322,12 +338,19 @@ impl core::fmt::Debug for Walked {
 fn walks_have_certificates_with_every_field() {
     let mut found = BTreeSet::new();
     for seed in 0..4 {
-        for certificate in Walked::new(8, seed).certificates {
+        let walks = [Walked::new(8, seed), Walked::round(1, seed)];
+        for certificate in walks.into_iter().flat_map(|walk| walk.certificates) {
             found.extend(fields(&serde_json::to_value(certificate).unwrap()));
         }
     }
     let of_all = ["/visits", "/rests_on_looks", "/seal"];
     let of_bounds = ["/proof/Bounds/begin", "/proof/Bounds/end"];
+    let of_winding = [
+        "/proof/Winding/corners",
+        "/proof/Winding/begins",
+        "/proof/Winding/corridors/begin",
+        "/proof/Winding/corridors/end",
+    ];
     let of_looks = [
         "/proof/Looks/pairs/visits",
         "/proof/Looks/pairs/after",
@@ -338,7 +361,8 @@ fn walks_have_certificates_with_every_field() {
         "/proof/Looks/looks/repeating",
         "/proof/Looks/chance",
     ];
-    let all = of_all.into_iter().chain(of_bounds).chain(of_looks);
+    let all = of_all.into_iter().chain(of_bounds).chain(of_winding);
+    let all = all.chain(of_looks);
     assert_eq!(found, all.map(ToString::to_string).collect());
 }
 

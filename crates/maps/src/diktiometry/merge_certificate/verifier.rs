@@ -4,7 +4,9 @@ use thiserror::Error;
 use tolman_geom::PointBox;
 
 use super::look_evidence::look_alike;
-use super::{Identities, JournalSpan, LookEvidence, MergeCertificate, MergeProof, connect};
+use super::{
+    Identities, JournalSpan, LookEvidence, MergeCertificate, MergeProof, WindingEvidence, connect,
+};
 use crate::diktiometry::{Config, Journal, MoveOutcome, Percepts};
 
 /// Reason why certificates do not hold. Each names the first that does not, from 0.
@@ -90,6 +92,22 @@ pub enum MergeCertificateError {
         most: f64,
         /// Minimum distance of two places, m.
         least: f64,
+    },
+    /// A visit is not to a corner of the chain.
+    #[error(
+        "certificate {number} takes visit {visit} for one to a corner; certify the merges again"
+    )]
+    NoCorner {
+        /// Number of the certificate.
+        number: usize,
+        /// Number of the visit.
+        visit: usize,
+    },
+    /// The corridors may be a spiral's.
+    #[error("certificate {number} has corridors that may be a spiral's; go round once more")]
+    Spiral {
+        /// Number of the certificate.
+        number: usize,
     },
     /// Two visits do not look alike.
     #[error("certificate {number} says that visits {one} and {other} look alike, but they do not")]
@@ -178,6 +196,10 @@ impl Verifier<'_> {
                 }
                 !connect(certificate.visits, routes, &self.proven)
             }
+            MergeProof::Winding(evidence) => {
+                self.winds(number, certificate.visits, evidence)?;
+                !evidence.joins(certificate.visits, &self.proven, self.config)
+            }
             MergeProof::Looks(evidence) => {
                 self.looks(number, certificate.visits, evidence)?;
                 true
@@ -236,6 +258,30 @@ impl Verifier<'_> {
             between = between.intersection(gone).ok_or(none)?;
         }
         Ok(between)
+    }
+
+    fn winds(
+        &self,
+        number: usize,
+        visits: [usize; 2],
+        evidence: &WindingEvidence,
+    ) -> Result<(), MergeCertificateError> {
+        let named: Vec<usize> = evidence.visits().collect();
+        self.known(number, &named)?;
+        if let Some(visit) = evidence.no_corner(self.config, self.journal) {
+            return Err(MergeCertificateError::NoCorner { number, visit });
+        }
+        if !evidence.joins(visits, &self.identities, self.config) {
+            return Err(MergeCertificateError::Gap { number });
+        }
+        let corridors = evidence.corners.windows(2).zip(&evidence.corridors);
+        let boxes =
+            corridors.map(|(ends, routes)| self.between(number, [ends[0], ends[1]], routes));
+        let boxes = boxes.collect::<Result<Vec<PointBox>, MergeCertificateError>>()?;
+        if !evidence.is_round(&boxes, self.config) {
+            return Err(MergeCertificateError::Spiral { number });
+        }
+        Ok(())
     }
 
     fn looks(

@@ -5,8 +5,10 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{
     Action, Apart, CertifiedMerges, Config, JournalLength, JournalSpan, MergeCertificate,
-    MergeCertificateError, MergeProof, WorldKind, certify_merges, verify_merges,
+    MergeCertificateError, MergeProof, Use, WorldKind, certify_merges, verify_merges,
 };
+use tolman_maze::Maze;
+use tolman_maze::drawings::{ring, spiral};
 use tolman_sim::abstract_world::AbstractWorld;
 
 use super::walk::{ODOMETRY, Walk, alike, blocks, painted};
@@ -52,6 +54,54 @@ fn merges_are_proven_and_what_is_proven_is_true() {
     assert!(proven > 30, "{proven}");
 }
 
+/// Returns a walk through the corridors of a drawing, where everything looks alike.
+fn wound(drawing: &Maze, moves: usize, seed: u64) -> (Walk, CertifiedMerges) {
+    let mut config = corridors();
+    config.journal = JournalLength::All;
+    config.world = WorldKind::Static;
+    config.apart = Apart::Side;
+    config.restructuring.winding_merge = Use::On;
+    let world = AbstractWorld::from_corridors(drawing, 1.0);
+    let mut walk = Walk::new(world, ODOMETRY, config, seed);
+    walk.heed(0.3, moves);
+    let journal = walk.observer.journal().unwrap();
+    let told = certify_merges(walk.observer.config(), journal).unwrap();
+    (walk, told)
+}
+
+#[test]
+fn a_ring_is_proven_by_its_turns() {
+    let mut proven = 0;
+    for seed in 0..8 {
+        let size = 6 + seed as u16;
+        let ring = ring((size, size), &mut ChaCha8Rng::seed_from_u64(seed)).unwrap();
+        let (walk, told) = wound(&ring, 200, seed);
+        assert_eq!(walk.observer.map().paths.places().count(), 4, "seed {seed}");
+        assert_eq!(verified(&walk, &told.certificates), Ok(()));
+        assert_eq!(told.unproven, [[0; 2]; 0], "seed {seed}");
+        for certificate in &told.certificates {
+            let [one, other] = certificate.visits.map(|visit| walk.log[visit].0);
+            assert_eq!(one, other, "seed {seed}: {certificate:?}");
+            let by_turns = matches!(certificate.proof, MergeProof::Winding(_));
+            proven += usize::from(by_turns && !certificate.rests_on_looks);
+        }
+    }
+    assert!(proven >= 8, "{proven}");
+}
+
+#[test]
+fn a_spiral_is_no_ring() {
+    for seed in 0..8 {
+        let size = 6 + seed as u16;
+        let spiral = spiral((size, size), &mut ChaCha8Rng::seed_from_u64(seed)).unwrap();
+        let (walk, told) = wound(&spiral, 200, seed);
+        for certificate in &told.certificates {
+            let [one, other] = certificate.visits.map(|visit| walk.log[visit].0);
+            assert_eq!(one, other, "seed {seed}: {certificate:?}");
+        }
+    }
+}
+
 #[test]
 fn a_proof_does_not_hold_under_other_assumptions() {
     let (walk, told) = walked(corridors(), 0);
@@ -85,7 +135,7 @@ fn changed(certificate: &MergeCertificate, by: usize) -> Vec<MergeCertificate> {
     push(&|one| one.seal = one.seal.wrapping_add(by as u64));
     let routes = match &certificate.proof {
         MergeProof::Bounds(routes) => routes.as_slice(),
-        MergeProof::Looks(_) => &[],
+        MergeProof::Winding(_) | MergeProof::Looks(_) => &[],
     };
     for (number, route) in routes.iter().enumerate() {
         for at in 0..route.len() {
