@@ -33,6 +33,9 @@ const MAZES: u32 = 200;
 /// Number of mazes for a first look.
 const QUICK: u32 = 20;
 
+/// Number of half-size mazes for a first look: each takes seconds.
+const QUICK_HALF_SIZE: u32 = 1;
+
 /// Stream of a run's seed from which its maze is drawn.
 const MAZE_STREAM: u64 = 41;
 
@@ -69,13 +72,18 @@ impl NoiseRun {
 }
 
 pub(super) fn table(options: &Options) -> Table {
-    let runs = options.runs_else(MAZES, QUICK);
+    let quick = |mouse: &Mouse| match mouse.config.size {
+        MouseSize::Classic => QUICK,
+        MouseSize::Half => QUICK_HALF_SIZE,
+    };
+    let runs = |mouse: &Mouse| options.runs_else(MAZES, quick(mouse));
     Table::of::<NoiseRun>(NOISE, "The mouse among thick walls, with noise")
         .metrics_from(NoiseRun::arrived)
-        .rows(mice().map(|mouse| Row::new(mouse.row).runs(runs)))
+        .rows(mice().map(|mouse| Row::new(mouse.row.clone()).runs(runs(&mouse))))
         .note(
             "One run per maze, half-braided, drawn by the run's seed, on the continuous simulator. A \
-             row's name has the maze's cells and the multiple of ordinary noise. Unless it says \
+             row's name has the maze's cells and the multiple of ordinary noise; half-size mazes have \
+             32 × 32 cells of 9 cm, and a mouse of half the size. Unless it says \
              otherwise the mouse has a particle filter. Noise 1: wheels slip by up to 10 % and drift \
              by 0.2 rad/m; three range sensors are off by 3 mm and 2 %. Steps and score are of the \
              runs that arrived. The error is the distance between believed and true position.",
