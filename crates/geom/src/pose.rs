@@ -189,6 +189,12 @@ mod tests {
         }
 
         #[test]
+        fn a_twist_that_is_kept_covers_its_speeds_by_the_time(a in pose(), linear in -2.0_f64..2.0, angular in -2.0_f64..2.0, seconds in 0.1_f64..3.0) {
+            let moved = a.moved(Twist { linear, angular }, seconds);
+            prop_assert!(same(moved, a.displaced(linear * seconds, angular * seconds)));
+        }
+
+        #[test]
         fn moving_back_returns(a in pose(), linear in -2.0_f64..2.0, angular in -2.0_f64..2.0) {
             let twist = Twist::new(linear, angular);
             prop_assert!(same(a.moved(twist, 0.7).moved(twist, -0.7), a));

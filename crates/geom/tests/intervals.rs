@@ -430,3 +430,31 @@ fn boxes_survive_json() {
     assert_eq!(serde_json::from_str::<PoseBox>(&json).unwrap(), pose);
     assert!(serde_json::from_str::<Interval>("[2.0, 1.0]").is_err());
 }
+
+proptest! {
+    #[test]
+    fn boxes_are_measured_as_their_sides_are((a, in_a) in boxes(), (b, in_b) in boxes(), degrees in -179.0..179.0) {
+        let middle = a.middle();
+        prop_assert!((middle.x - 0.5 * (a.x.low() + a.x.high())).abs() < 1e-12);
+        prop_assert!((middle.y - 0.5 * (a.y.low() + a.y.high())).abs() < 1e-12);
+        let longer = (a.x.high() - a.x.low()).max(a.y.high() - a.y.low());
+        prop_assert!((a.width() - longer).abs() < 1e-12);
+        // Two boxes meet exactly where they have something in common.
+        prop_assert_eq!(a.meets(b), a.intersection(b).is_some());
+        let beside = |a: Interval, b: Interval| (a.low() - b.high()).max(b.low() - a.high()).max(0.0);
+        let gaps = [beside(a.x, b.x), beside(a.y, b.y)];
+        prop_assert_eq!(a.meets(b), gaps == [0.0, 0.0]);
+        prop_assert!((a.x.gap(b.x) - gaps[0]).abs() < 1e-12 && a.x.gap(b.x) <= gaps[0]);
+        // The least distance is that of the nearest corners, and all distances are in between.
+        let distance = a.distance(b);
+        prop_assert!((distance.low() - gaps[0].hypot(gaps[1])).abs() < 1e-6, "{distance:?} {gaps:?}");
+        prop_assert!(distance.contains((in_a - in_b).norm()));
+        let far = |a: Interval, b: Interval| (a.high() - b.low()).max(b.high() - a.low());
+        let farthest = far(a.x, b.x).hypot(far(a.y, b.y));
+        prop_assert!((distance.high() - farthest).abs() < 1e-9);
+        prop_assert!((Heading::from_degrees(degrees).degrees() - degrees).abs() < 1e-9);
+        let pose = PoseBox::new(a, Interval::of(degrees.to_radians()).unwrap()).middle();
+        prop_assert_eq!(pose.position, middle);
+        prop_assert!((pose.heading.degrees() - degrees).abs() < 1e-9);
+    }
+}

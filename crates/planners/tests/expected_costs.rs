@@ -47,3 +47,20 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn decisions_count_states_and_actions() {
+    let mut decisions = Decisions::between(2);
+    assert_eq!(
+        (decisions.actions(), decisions.len(), decisions.is_empty()),
+        (2, 0, true)
+    );
+    for _ in 0..6 {
+        decisions.add(1.0, [(0, 1.0)]);
+    }
+    assert_eq!(
+        (decisions.actions(), decisions.len(), decisions.is_empty()),
+        (2, 3, false)
+    );
+    assert_eq!(Decisions::between(5).actions(), 5);
+}

@@ -415,7 +415,140 @@ mod tests {
         }
     }
 
+    /// Returns the surfaces of a room, and of one that was seen from another pose.
+    fn two_rooms() -> Surfaces {
+        let mut known = Surfaces::default();
+        known.add(0, Pose::IDENTITY, &room());
+        known.add(1, pose(0.7, 0.4, 1.0), &room());
+        known
+    }
+
+    fn pose(x: f64, y: f64, turn: f64) -> Pose {
+        Pose::new(Point::new(x, y), Heading::from_radians(turn))
+    }
+
+    /// Returns the derivative of `off` by the pose.
+    fn derivative(at: Pose, off: impl Fn(Pose) -> f64) -> Vector3<f64> {
+        const STEP: f64 = 1e-6;
+        Vector3::from_fn(|axis, _| {
+            let mut step = Vector3::zeros();
+            step[axis] = STEP;
+            (off(moved(at, &step)) - off(moved(at, &-step))) / (2.0 * STEP)
+        })
+    }
+
+    #[test]
+    fn a_residual_weighs_less_the_farther_it_is_off() {
+        let residual = |off, share| Residual {
+            off,
+            by_pose: Vector3::new(2.0, -1.0, 0.5),
+            place: 0,
+            share,
+        };
+        // At 2.5 standard deviations the weight is a quarter.
+        for (off, share, weight) in [(0.0, 1.0, 0.3), (2.5, 1.0, 0.075), (2.5, 0.5, 0.0375)] {
+            let (information, pull) = normal_equations(&[residual(off, share)]);
+            for (row, a) in [2.0, -1.0, 0.5].into_iter().enumerate() {
+                for (column, b) in [2.0, -1.0, 0.5].into_iter().enumerate() {
+                    assert!((information[(row, column)] - weight * a * b).abs() < 1e-12);
+                }
+                assert!((pull[row] - weight * off * a).abs() < 1e-12);
+            }
+        }
+        // 24 points and an arc that is worth half a point. What is off by 3 or more saves nothing.
+        let likelihood = |all: &[Residual]| likelihood(&room(), all);
+        assert!((likelihood(&[]) + 0.15 * 9.0 * 24.5).abs() < 1e-9);
+        for (off, share, saved) in [(1.0, 1.0, 8.0), (-2.0, 0.5, 2.5), (7.0, 1.0, 0.0)] {
+            let found = likelihood(&[residual(off, share)]) - likelihood(&[]);
+            assert!((found - 0.15 * saved).abs() < 1e-9, "{off} {found}");
+        }
+    }
+
     proptest! {
+        #[test]
+        fn an_arc_is_off_by_the_nearest_surface_that_it_may_hear(
+            x in -0.9..0.9, y in -0.9..0.9, turn in -3.2..3.2, ahead in -0.3..0.3, aside in -0.3..0.3,
+            side in -3.2..3.2, half_width in 0.05..0.6, range in 0.5..2.5, max_range in 1.0..3.0, gate in 0.05..0.5,
+        ) {
+            let known = two_rooms();
+            let all: Vec<&Surface> = known.all().collect();
+            let (at, mount) = (pose(x, y, turn), pose(ahead, aside, side));
+            let arc = Sounding { mount, half_width, max_range, range };
+            let ear = at.compose(mount);
+            let far = |surface: &Surface| (surface.position() - ear.position).norm();
+            let gate_of_arc = f64::max(gate, 0.15);
+            let may_hear = |surface: &&&Surface| {
+                let there = surface.position() - ear.position;
+                let bearing = ear.heading.turned(-there.y.atan2(there.x)).radians().abs();
+                let is_in_front = bearing <= half_width + 0.03 && there.norm() * bearing.cos() <= max_range;
+                is_in_front && surface.normal().dot(&there) <= 0.0 && there.norm() <= range + gate_of_arc
+            };
+            let nearest = all.iter().filter(may_hear).min_by(|a, b| far(a).total_cmp(&far(b)));
+            let nearest = nearest.filter(|surface| (far(surface) - range).abs() <= gate_of_arc);
+            let found = of_arc(&arc, &all, at, gate);
+            prop_assert_eq!(found.is_some(), nearest.is_some());
+            if let (Some(found), Some(surface)) = (found, nearest) {
+                let deviation = 0.02 + 0.01 * far(surface);
+                let off = |at: Pose| (range - (surface.position() - at.compose(mount).position).norm()) / deviation;
+                prop_assert!((found.off - off(at)).abs() < 1e-9);
+                prop_assert!((found.by_pose - derivative(at, off)).norm() < 1e-3);
+                prop_assert_eq!((found.place, found.share.to_bits()), (surface.place, 0.5_f64.to_bits()));
+            }
+        }
+
+        #[test]
+        fn a_point_is_off_by_the_nearest_surface_that_is_alike(
+            x in -0.9..0.9, y in -0.9..0.9, turn in -3.2..3.2, ahead in -2.2..2.2, aside in -2.2..2.2,
+            side in -3.2..3.2, deviation in 0.01..0.2, gate in 0.05..0.8,
+        ) {
+            let known = two_rooms();
+            let all: Vec<&Surface> = known.all().collect();
+            let at = pose(x, y, turn);
+            let normal = Some(Heading::from_radians(side).unit());
+            let point = OutlinePoint { position: Point::new(ahead, aside), normal, deviation, colour: Some([0.45, 0.35]) };
+            let there = at.transform(point.position);
+            let far = |surface: &Surface| (surface.position() - there).norm();
+            // Within 28° of its direction; all are of its colour.
+            let is_near = |surface: &&&Surface| {
+                let turned = at.heading.rotate(point.normal.unwrap());
+                turned.dot(&surface.normal()) >= 0.88 && far(surface) < gate + 2.0 * deviation
+            };
+            let nearest = all.iter().filter(is_near).min_by(|a, b| far(a).total_cmp(&far(b)));
+            let found = of_point(&point, &all, at, gate);
+            prop_assert_eq!(found.is_some(), nearest.is_some());
+            if let (Some(found), Some(surface)) = (found, nearest) {
+                let sight = (there - at.position).normalize();
+                let along = deviation * sight.dot(&surface.normal());
+                let deviation = (along * along + surface.variance()).sqrt();
+                let off = |at: Pose| surface.normal().dot(&(at.transform(point.position) - surface.position())) / deviation;
+                prop_assert!((found.off - off(at)).abs() < 1e-9);
+                prop_assert!((found.by_pose - derivative(at, off)).norm() < 1e-3);
+                prop_assert_eq!((found.place, found.share.to_bits()), (surface.place, 1.0_f64.to_bits()));
+            }
+        }
+
+        #[test]
+        fn surfaces_out_of_reach_make_no_residual(x in -2.5..2.5, y in -2.5..2.5, turn in -3.2..3.2, gate in 0.05..0.5, far in 0.3..2.0) {
+            let known = two_rooms();
+            let all: Vec<&Surface> = known.all().collect();
+            let at = pose(x, y, turn);
+            let mut outline = room();
+            outline.points.truncate(9);
+            // A sonar beside the middle, heard from beyond the points.
+            outline.arcs[0].mount = pose(0.2, -0.2, 2.0);
+            for (point, number) in outline.points.iter_mut().zip(1..) {
+                point.position = Point::from(point.position.coords * 0.2 * far);
+                point.deviation = 0.02 * f64::from(number);
+                point.normal = None;
+            }
+            let points = outline.points.iter().filter_map(|point| of_point(point, &all, at, gate));
+            let arcs = outline.arcs.iter().filter_map(|arc| of_arc(arc, &all, at, gate));
+            let expected: Vec<(u64, u32)> = points.chain(arcs).map(|one| (one.off.to_bits(), one.place)).collect();
+            let found = residuals(&outline, &all, at, gate);
+            let found: Vec<(u64, u32)> = found.iter().map(|one| (one.off.to_bits(), one.place)).collect();
+            prop_assert_eq!(found, expected);
+        }
+
         #[test]
         fn no_surface_is_missed_that_lies_between_two_bounds(low in -3.0..3.0, width in 0.0..2.0, x in -0.3..0.3, turn in -3.0..3.0) {
             let mut known = Surfaces::default();

@@ -1,10 +1,15 @@
 //! Places and ways of grounds that are drawn by hand.
 
-use tolman_geom::Point;
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use tolman_geom::{Point, Vector};
 use tolman_maps::scan_map::{
     ChartParts, CorridorMap, CorridorPlace, ScanChart, ScanPlace, WallGrid,
 };
+use tolman_maze::{Braided, Cell, Direction};
 use tolman_robot::Landmark;
+
+use crate::pinned::pinned;
 
 /// Cells of the map for a letter of a drawing: a corridor as wide as one is 0.95 m wide.
 const CELLS: usize = 19;
@@ -117,4 +122,168 @@ fn a_robot_that_passes_a_place_between_two_points_was_there() {
     let visits = map.visits(&[start, east]);
     assert_eq!(visits[0], map.at(start));
     assert_eq!(visits.len(), 2);
+}
+
+#[test]
+fn a_corridor_map_is_seen_with_all_its_ways_both_ways() {
+    let map = map(&["#####", "##.##", "#S.G#", "##.##", "#####"]);
+    let view = map.view();
+    assert_eq!((view.places.len(), view.links.len()), (5, 8));
+    for (place, seen) in map.places().iter().zip(&view.places) {
+        assert_eq!(
+            (Some(place.position), place.landmark),
+            (seen.position, seen.landmark)
+        );
+    }
+    for way in map.ways() {
+        let [from, to] = way.ends;
+        for (from, to) in [(from, to), (to, from)] {
+            assert!(
+                view.links
+                    .iter()
+                    .any(|link| (link.from, link.to) == (from, to))
+            );
+        }
+        // The arms of the crossing are straight.
+        let [from, to] = way.ends.map(|end| map.places()[end as usize].position);
+        let straight = (from - to).norm();
+        assert!(
+            (way.length - straight).abs() < 0.1 * WIDTH,
+            "{way:?} {straight}"
+        );
+    }
+}
+
+#[test]
+fn a_robot_is_at_a_place_within_a_third_of_a_corridor() {
+    let map = map(&["######", "#.S.G#", "######"]);
+    for (number, place) in (0..).zip(map.places()) {
+        for (share, expected) in [(0.0, Some(number)), (0.32, Some(number)), (0.34, None)] {
+            let aside = Point::new(place.position.x, place.position.y + share * WIDTH);
+            assert_eq!(map.at(aside), expected, "{share}");
+        }
+    }
+    // A trail that jumps over a place, but not far: it was there at the nearest point.
+    let start = map.places()[1].position;
+    let beside = |share: f64| Point::new(start.x + share * WIDTH, start.y);
+    for (share, expected) in [(0.4, Some(1)), (0.58, Some(1)), (0.61, None)] {
+        let visits = map.visits(&[beside(-0.62), beside(share), beside(0.7)]);
+        assert_eq!(visits, [None, expected, None], "{share}");
+    }
+}
+
+#[test]
+fn goals_as_wide_as_several_corridors_are_several_places() {
+    let drawing = ["######", "#S...#", "###.##", "###G##", "######"];
+    let at = middle(&drawing, 'G').unwrap();
+    let marks = |extents: [f64; 2]| {
+        let [low, high] = extents.map(|share| Point::new(at.x, at.y + share * WIDTH));
+        let goals = map_with(&drawing, vec![low, high]);
+        let goals = goals
+            .places()
+            .iter()
+            .filter(|place| place.landmark == Some(Landmark::Goal));
+        goals.count()
+    };
+    // Over up to 1.2 corridors it is one goal, over more it is two.
+    assert_eq!(
+        [[-0.1, 0.3], [-0.8, 0.3], [-0.85, 0.3]].map(marks),
+        [1, 1, 1]
+    );
+    assert_eq!([[-1.0, 0.3], [-1.1, 0.4]].map(marks), [2, 2]);
+}
+
+/// Returns the map of a braided maze whose walls are uneven, with the cell size of a scan map.
+fn of_maze(seed: u64) -> (CorridorMap, Vec<Point>) {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let shape = Braided {
+        width: 4,
+        height: 4,
+        share: 0.6,
+    };
+    let maze = shape.generate(&mut rng).unwrap();
+    // A wall is as wide as three cells, a corridor as fourteen to eighteen.
+    let corridor = 14 + 2 * (seed as usize % 3);
+    let pitch = corridor + 3;
+    let side = 4 * pitch + 3;
+    let mut rows = vec![vec!['.'; side]; side];
+    for (row, letters) in rows.iter_mut().enumerate() {
+        for (column, letter) in letters.iter_mut().enumerate() {
+            let at = |along: usize| {
+                (
+                    (along / pitch).min(3) as u16,
+                    along % pitch < 3 || along >= 4 * pitch,
+                )
+            };
+            let ((x, is_west), (y, is_south)) = (at(column), at(row));
+            let cell = Cell::new(x, y);
+            let border = (column >= 4 * pitch, row >= 4 * pitch);
+            let stands = |direction| !maze.is_open(cell, direction);
+            let is_wall = match (is_west, is_south) {
+                (true, true) => true,
+                (true, false) => border.0 || stands(Direction::West),
+                (false, true) => border.1 || stands(Direction::South),
+                _ => false,
+            };
+            *letter = if is_wall { '#' } else { '.' };
+        }
+    }
+    for _ in 0..12 {
+        // Boxes that stand about, some of them at walls.
+        let [column, row] = [0, 1].map(|_| rng.random_range(1..side - 3));
+        for letters in &mut rows[row..row + 2] {
+            letters[column..column + 2].fill('#');
+        }
+    }
+    let middle =
+        |cell: usize| (3.0 + pitch as f64 * cell as f64 + 0.5 * corridor as f64) * WallGrid::CELL;
+    let stand = |number: usize| Point::new(middle(number % 4), middle(number / 4));
+    let landmark = |number: usize| match number {
+        0 => Some(Landmark::Start),
+        6 => Some(Landmark::Numbered(3)),
+        _ => None,
+    };
+    let places = [0, 3, 6, 9].map(|number| ScanPlace {
+        position: stand(number),
+        landmark: landmark(number),
+    });
+    let goal = [-0.2, 0.1, 0.3].map(|off| stand(15) + Vector::new(off, 0.5 * off));
+    let parts = ChartParts {
+        radius: 0.2,
+        places: places.to_vec(),
+        links: Vec::new(),
+        goal: goal.to_vec(),
+        start: if seed % 4 == 3 {
+            vec![stand(12)]
+        } else {
+            Vec::new()
+        },
+        surprise: 0.0,
+        cell: WallGrid::CELL,
+        first: [0, 0],
+        rows: rows.into_iter().map(String::from_iter).collect(),
+    };
+    let width = corridor as f64 * WallGrid::CELL;
+    let map = CorridorMap::of(&ScanChart::from_parts(parts).unwrap(), width);
+    (map, (0..16).map(stand).collect())
+}
+
+#[test]
+fn maps_of_uneven_mazes_are_what_they_were() {
+    let mut figures = Vec::new();
+    for seed in 0..12 {
+        let (map, trail) = of_maze(seed);
+        figures.push(format!("{seed} {} {:?}", map.is_open(), map.visits(&trail)));
+        figures.extend(
+            map.places()
+                .iter()
+                .map(|place| format!("{:?} {:?}", place.position, place.landmark)),
+        );
+        figures.extend(
+            map.ways()
+                .iter()
+                .map(|way| format!("{:?} {}", way.ends, way.length)),
+        );
+    }
+    pinned("corridor_map", &figures);
 }

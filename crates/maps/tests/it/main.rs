@@ -14,6 +14,7 @@ mod cpm;
 mod diktiometry;
 #[cfg(feature = "serde")]
 mod files;
+mod memory;
 mod moves;
 mod mslst_graph;
 mod pinned;

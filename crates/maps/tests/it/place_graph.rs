@@ -376,3 +376,46 @@ fn a_run_by_outlines_is_what_it_was() {
     }
     pinned("place_graph", &figures);
 }
+
+#[test]
+fn wheels_that_err_more_or_stand_closer_bend_the_way_more() {
+    let curvature = |share, track| {
+        let config = PlaceGraphConfig::indoors().for_wheels(share, track);
+        assert_eq!(config.scale_deviation.to_bits(), f64::to_bits(share));
+        config.curvature_deviation
+    };
+    assert!((curvature(0.03, 0.32) - 0.15).abs() < 1e-12);
+    assert!((curvature(0.06, 0.32) - 0.3).abs() < 1e-12);
+    assert!((curvature(0.03, 0.08) - 0.6).abs() < 1e-12);
+}
+
+/// Pictures of a floor that grows darker, with things on it: every foot is pinned.
+#[test]
+fn the_feet_of_things_are_what_they_were() {
+    let mut figures = Vec::new();
+    for (width, height) in [(12, 30), (97, 21), (5, 3), (4, 60)] {
+        let pixel = |index: u32| {
+            let (column, row) = (index % width, index / width);
+            let floor = 60 + (90 * row / height) as u8 + (index * 7 % 5) as u8;
+            let foot = height / 2 + 1 + column * 5 % (height / 2 + 1);
+            let rim = 20 * ((column + row) % 3) as u8;
+            match (row < foot, column % 4) {
+                (true, 0) => [190, 30 + rim, 20],
+                (true, 1) => [20, 40, 160 + rim],
+                // Hardly unlike the floor.
+                (true, 2) => [floor + 14, floor + rim, floor],
+                _ => [floor; 3],
+            }
+        };
+        let picture = Picture {
+            width,
+            height,
+            camera: CAMERA,
+            pixels: (0..width * height).map(pixel).collect(),
+        };
+        let feet = foot_line(&picture);
+        figures.push(format!("{width} {height} {}", feet.len()));
+        figures.extend(feet.iter().map(|foot| format!("{foot:?}")));
+    }
+    pinned("foot_line", &figures);
+}

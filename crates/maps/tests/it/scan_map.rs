@@ -4,7 +4,7 @@
 use proptest::prelude::*;
 use tolman_geom::{Heading, Point, Vector};
 use tolman_maps::scan_map::{
-    Advance, ChartError, ChartParts, Explanation, ScanChart, ScanMap, ScanMapConfig,
+    Advance, ChartError, ChartParts, Explanation, ScanChart, ScanMap, ScanMapConfig, ScanPlace,
     StandpointBelief, Standpoints, WallGrid,
 };
 use tolman_robot::{Landmark, Ring, Scan};
@@ -424,4 +424,48 @@ fn a_run_in_a_corridor_is_what_it_was() {
         figures.push(probabilities.join(" "));
     }
     pinned("scan_map", &figures);
+}
+
+/// Returns a chart of six places: 0 – 1 – 2 – 3, 0 – 4 – 3, and 5 on its own.
+fn charted(goal: usize, surprise: f64) -> ScanChart {
+    let place = |number: u32| ScanPlace {
+        position: Point::new(f64::from(number), 0.0),
+        landmark: None,
+    };
+    ScanChart::from_parts(ChartParts {
+        radius: 0.2,
+        places: (0..6).map(place).collect(),
+        links: vec![[0, 1], [0, 4], [1, 2], [2, 3], [3, 4]],
+        goal: vec![Point::origin(); goal],
+        start: Vec::new(),
+        surprise,
+        cell: WallGrid::CELL,
+        first: [0, 0],
+        rows: vec!["..".to_owned()],
+    })
+    .unwrap()
+}
+
+#[test]
+fn a_chart_is_doubted_for_what_it_lacks_or_contradicts() {
+    let doubt = |goal, surprise| charted(goal, surprise).doubt();
+    assert!(doubt(0, 0.0).unwrap().contains("never sensed the goal"));
+    let most = ScanMap::DOUBTFUL;
+    assert_eq!(
+        [0.0, 0.5 * most, most].map(|surprise| doubt(1, surprise)),
+        [None; 3]
+    );
+    assert!(doubt(1, 1.01 * most).unwrap().contains("contradict"));
+}
+
+#[test]
+fn a_way_on_a_chart_has_the_fewest_links() {
+    let chart = charted(1, 0.0);
+    assert_eq!(chart.way(0, &[3]), Some(vec![0, 4, 3]));
+    assert_eq!(chart.way(3, &[0, 1]).map(|way| way.len()), Some(3));
+    assert_eq!(chart.way(2, &[5, 1]), Some(vec![2, 1]));
+    assert_eq!(chart.way(2, &[2]), Some(vec![2]));
+    assert_eq!((chart.way(0, &[5]), chart.way(5, &[0, 1])), (None, None));
+    let view = chart.view();
+    assert_eq!((view.places.len(), view.links.len()), (6, 10));
 }

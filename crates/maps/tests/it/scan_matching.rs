@@ -69,6 +69,41 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(24))]
 
     #[test]
+    fn a_beam_contradicts_the_map_where_it_ends_on_floor(
+        x in 0.5..6.5, y in 0.5..3.0, degrees in -180.0..180.0, off in -0.4..0.4, farthest in 2.0..9.0, wall in 0.1..0.7,
+    ) {
+        let world = room();
+        let mut grid = OccupancyGrid::around([Point::new(-0.5, -0.5), Point::new(7.5, 5.5)].into_iter(), 0.1);
+        for seen in [pose(3.0, 2.0, 0.0), pose(3.0, 2.0, 180.0), pose(5.0, 1.0, 90.0), pose(1.0, 4.0, -40.0)] {
+            grid.add(&scan(&world, seen), seen, 9.0);
+        }
+        let shares: Vec<Option<f64>> = grid.occupancy().collect();
+        let is_wall = |column: i64, row: i64| {
+            let is_inside = (0..grid.columns as i64).contains(&column) && (0..grid.rows as i64).contains(&row);
+            is_inside && shares[row as usize * grid.columns + column as usize].is_some_and(|share| share > wall)
+        };
+        let at = pose(x, y, degrees);
+        let mut seen = scan(&world, at);
+        // Some hit nothing, and one is what a broken laser says.
+        seen.ranges[3] = RING.max_range;
+        seen.ranges[7] = 0.0;
+        let map_from_laser = pose(x + off, y - off, degrees);
+        let (mut all, mut on_floor) = (0, 0);
+        for (beam, range) in (0..).zip(&seen.ranges) {
+            if *range <= 0.0 || *range >= farthest {
+                continue;
+            }
+            let bearing = map_from_laser.heading.turned(RING.bearing(beam)).unit();
+            let end = (map_from_laser.position + bearing * *range - grid.origin) / grid.cell;
+            let (column, row) = (end.x.floor() as i64, end.y.floor() as i64);
+            let near = (-1..=1).flat_map(|aside| (-1..=1).map(move |ahead| (column + aside, row + ahead)));
+            all += 1;
+            on_floor += usize::from(!near.into_iter().any(|(column, row)| is_wall(column, row)));
+        }
+        prop_assert_eq!(grid.contradicted(&seen, map_from_laser, farthest, wall), [all, on_floor]);
+    }
+
+    #[test]
     fn a_known_displacement_is_found_again(
         x in 2.0..5.0, y in 1.0..3.0, degrees in -180.0..180.0,
         ahead in 0.2..0.5, turn in -30.0..30.0, lie_x in -0.3..0.3, lie_y in -0.3..0.3, lie in -15.0..15.0,

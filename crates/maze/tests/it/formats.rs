@@ -300,3 +300,31 @@ fn formats_have_names() {
     );
     assert_eq!(format!("{:>10}|", Format::Num), "       num|");
 }
+
+#[test]
+fn formats_are_known_by_their_files_names() {
+    let extension = |format: Format| format.extension();
+    let all = [
+        Format::Numbers,
+        Format::Mazefiles,
+        Format::Num,
+        Format::Tolman,
+    ];
+    assert_eq!(all.map(extension), ["txt", "txt", "num", "maze"]);
+}
+
+#[test]
+fn directions_turn_as_a_compass_does() {
+    use Direction::{East, North, South, West};
+    for (number, heading) in (0..4).zip([North, East, South, West]) {
+        let seen: Vec<Direction> = [North, East, South, West]
+            .map(|side| heading.turned(side))
+            .into();
+        let mut expected = vec![North, East, South, West];
+        expected.rotate_left(number);
+        assert_eq!(seen, expected, "{heading:?}");
+        for side in Direction::ALL {
+            assert_eq!(heading.turned(side).seen_from(heading), side);
+        }
+    }
+}

@@ -67,6 +67,12 @@ impl MouseStep {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_quarter_turn_is_a_right_angle_clockwise() {
+        let turns = [QuarterTurn::Left, QuarterTurn::None, QuarterTurn::Right];
+        assert_eq!(turns.map(QuarterTurn::degrees), [-90, 0, 90]);
+    }
     use tolman_maze::Cell;
 
     #[test]

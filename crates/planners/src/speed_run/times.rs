@@ -193,6 +193,59 @@ fn check(config: &SpeedRunConfig) -> Result<(), SpeedRunConfigError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::speed_run::{Side, Slalom};
+
+    #[test]
+    fn a_straight_takes_what_its_acceleration_allows() {
+        let drive = SpeedProfile {
+            acceleration_mm_s2: 1000.0,
+            top_speed_mm_s: 500.0,
+        };
+        // 100 mm from 200 mm/s: up to √(200² + 1000 · 100) mm/s in the middle and down again.
+        let half = (f64::sqrt(200.0 * 200.0 + 1000.0 * 100.0) - 200.0) / 1000.0;
+        assert_eq!(
+            milliseconds(drive, 200.0, 100.0),
+            (2000.0 * half).ceil() as u64
+        );
+        // 1000 mm: 105 mm up to the top speed in 0.3 s, 105 mm down, 790 mm at it.
+        assert_eq!(milliseconds(drive, 200.0, 1000.0), 600 + 1580);
+        assert_eq!(milliseconds(drive, 500.0, 1000.0), 2000);
+    }
+
+    #[test]
+    fn a_move_takes_as_long_as_its_kind() {
+        let config = SpeedRunConfig::classic();
+        let times = SpeedRunTimes::<16>::new(&config).unwrap();
+        for cells in 0..16_u16 {
+            let [straight, diagonal] = [
+                milliseconds(
+                    config.straight,
+                    config.turn_speed_mm_s,
+                    config.cell_mm * f64::from(cells),
+                ),
+                milliseconds(
+                    config.diagonal,
+                    config.turn_speed_mm_s,
+                    config.cell_mm * f64::from(cells) * core::f64::consts::FRAC_1_SQRT_2,
+                ),
+            ];
+            assert_eq!(
+                times.of(RunMove::Straight { cells }).map(u64::from),
+                Some(straight)
+            );
+            assert_eq!(
+                times.of(RunMove::Diagonal { cells }).map(u64::from),
+                Some(diagonal)
+            );
+        }
+        assert_eq!(times.of(RunMove::Straight { cells: 16 }), None);
+        assert_eq!(times.of(RunMove::Diagonal { cells: 32 }), None);
+        let turn = RunMove::Turn {
+            slalom: Slalom::F135,
+            side: Side::Left,
+        };
+        assert_eq!(times.of(turn), Some(config.slalom.f135_ms));
+    }
 
     /// Returns whether the classic preset is accepted after `change`.
     fn outcome(change: impl FnOnce(&mut SpeedRunConfig)) -> Result<(), SpeedRunConfigError> {

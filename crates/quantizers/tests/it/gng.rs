@@ -346,3 +346,41 @@ fn a_network_merged_into_one_unit_goes_on() {
     );
     gng.observe(&[0.1]).unwrap();
 }
+
+#[test]
+fn presets_are_those_of_their_papers() {
+    let mslst = GngConfig::mslst(50.0);
+    assert_eq!(mslst.order, StepOrder::Mslst);
+    assert_eq!(mslst.gate, GrowthGate::MeanError { threshold: 50.0 });
+    let provost = GngConfig::provost(0.1);
+    let rates = [provost.winner_rate, provost.neighbour_rate, provost.decay];
+    assert_eq!(
+        rates.map(f64::to_bits),
+        [0.05, 0.0006, 0.9995].map(f64::to_bits)
+    );
+    assert_eq!((provost.max_age, provost.growth_period), (100, 200));
+    assert_eq!(
+        (provost.error, provost.gate),
+        (ErrorKind::Relative, GrowthGate::Rate { threshold: 0.1 })
+    );
+    assert_eq!(
+        provost.split_factor.to_bits(),
+        GngConfig::fritzke().split_factor.to_bits()
+    );
+}
+
+#[test]
+fn a_network_counts_its_steps_and_names_its_units() {
+    let mut gng = Gng::<f64>::new(1, GngConfig::fritzke()).unwrap();
+    for input in 0..7_u32 {
+        gng.observe(&[f64::from(input)]).unwrap();
+    }
+    // The first two became units.
+    assert_eq!(gng.steps(), 5);
+    assert_eq!(UnitId(37).to_string(), "37");
+    let clusters = gng.network().clusters();
+    let labels: Vec<_> = gng.network().ids().map(|id| clusters.label(id)).collect();
+    assert!(labels.iter().all(|label| *label == Ok(0)), "{labels:?}");
+    assert!(clusters.label(UnitId(999)).is_err());
+    assert!(gng.network().ids().all(|id| gng.utility(id) == Ok(0.0)));
+}

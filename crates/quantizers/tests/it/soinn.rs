@@ -616,3 +616,28 @@ fn a_memory_refuses_what_it_cannot_hold() {
         "a response of another size cannot be a key"
     );
 }
+
+#[test]
+fn presets_are_those_of_their_papers() {
+    let [paper, noisy, cpm] = [
+        SoinnConfig::shen_hasegawa(),
+        SoinnConfig::noisy(),
+        SoinnConfig::cpm(),
+    ];
+    assert_eq!([paper, noisy, cpm].map(|one| one.max_age), [100, 20, 20]);
+    assert_eq!([paper, noisy, cpm].map(|one| one.period), [100, 100, 20]);
+    assert_eq!(noisy.denoising, Denoising::LowRate { c: 1.0 });
+    assert_eq!(
+        [paper, cpm].map(|one| one.denoising),
+        [Denoising::FewWins { c: 1.0 }; 2]
+    );
+}
+
+#[test]
+fn steps_count_from_the_third_input() {
+    let mut soinn = Soinn::<f64>::new(1, SoinnConfig::exact()).unwrap();
+    for (number, input) in [0.0, 9.0, 4.0, 4.1, 7.0].into_iter().enumerate() {
+        soinn.observe(&[input]).unwrap();
+        assert_eq!(soinn.steps(), (number as u64).saturating_sub(1));
+    }
+}

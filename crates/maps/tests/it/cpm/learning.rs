@@ -17,16 +17,16 @@ use crate::pinned::pinned;
 
 type Corridors = BTreeSet<(Cell, Direction)>;
 
-struct Learned {
-    world: World,
-    mapper: CpMapper,
+pub(crate) struct Learned {
+    pub(crate) world: World,
+    pub(crate) mapper: CpMapper,
     stand: Stand,
     walked: Corridors,
     updates: Vec<MapUpdate>,
 }
 
 /// Wanders through a maze and maps it.
-fn learned(world: World, config: CpMapperConfig, walks: usize, seed: u64) -> Learned {
+pub(crate) fn learned(world: World, config: CpMapperConfig, walks: usize, seed: u64) -> Learned {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut stand = world.start();
     let mut mapper = CpMapper::new(config, world.sighting(stand.at)).unwrap();

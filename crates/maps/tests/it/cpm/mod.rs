@@ -1,12 +1,15 @@
 //! CPM: Λ1, Λ2 and the geometry of ports they stand for; mazes that are learned, and found again.
 
+#[cfg(feature = "serde")]
+mod files;
 mod learning;
 mod sequences;
 mod world;
 
 use proptest::prelude::*;
 use tolman_maps::cpm::{
-    CpMapper, CpMapperConfig, Dictionary, MapUpdate, Sighting, Traversal, Turn,
+    CpMapper, CpMapperConfig, Dictionary, MapUpdate, PatternId, Sighting, Sign, Traversal, Turn,
+    theorem_1,
 };
 
 fn junction_and_ports() -> impl Strategy<Value = (u32, u32, u32, u32)> {
@@ -73,4 +76,32 @@ fn a_place_that_is_not_what_the_map_says_is_counted_as_a_contradiction() {
     assert_eq!(walk([wall, wall, door], 1), (MapUpdate::New, 0));
     // It set off at a dead end.
     assert_eq!(walk([door, wall, wall], 3), (MapUpdate::Contradiction, 1));
+}
+
+#[test]
+fn theorem_1_bounds_the_time_until_the_goal() {
+    // Three fragments before one came again; of the five others, the k-th asks for k more.
+    let rest: f64 = (4..=8).map(f64::from).sum();
+    let bound = theorem_1(&[12.0, 8.0, 10.0], 12.5, 8);
+    assert!((bound - (30.0 + 12.5 * rest)).abs() < 1e-9, "{bound}");
+    assert!((theorem_1(&[], 2.0, 4) - 20.0).abs() < 1e-9);
+    assert!((theorem_1(&[1.5], 1.5, 1) - 1.5).abs() < 1e-9);
+}
+
+#[test]
+fn a_dictionary_knows_what_it_has() {
+    let mut dictionary = Dictionary::new(2);
+    assert!(dictionary.is_empty());
+    dictionary.learn(&[0.0, 1.0], &[1.0, 0.0], 0.1).unwrap();
+    assert!(!dictionary.is_empty());
+    assert_eq!(dictionary.len(), 2);
+    let pairs = |partners: [u32; 2]| {
+        let [a, b] = partners.map(PatternId);
+        let prototypes = [(vec![0.0, 1.0], a), (vec![1.0, 0.0], b)];
+        Dictionary::from_prototypes(2, &prototypes)
+    };
+    assert_eq!(pairs([1, 0]).unwrap(), dictionary);
+    assert_eq!(pairs([0, 1]).unwrap().len(), 2);
+    assert!(pairs([1, 1]).is_err() && pairs([0, 0]).is_err() && pairs([1, 2]).is_err());
+    assert_eq!(Sign::BOTH.map(|sign| sign.to_string()), ["−", "+"]);
 }

@@ -14,7 +14,7 @@ use tolman_sim::abstract_world::AbstractWorld;
 use super::walk::{ODOMETRY, Walk, alike, blocks, painted};
 
 /// Returns a walk through corridors where nothing changes, and what is proven of its map.
-fn walked(mut config: Config, seed: u64) -> (Walk, CertifiedMerges) {
+pub(super) fn walked(mut config: Config, seed: u64) -> (Walk, CertifiedMerges) {
     let maze = blocks(5, 0.25, &mut ChaCha8Rng::seed_from_u64(seed));
     let world = AbstractWorld::from_maze(&maze, 1.0);
     config.journal = JournalLength::All;

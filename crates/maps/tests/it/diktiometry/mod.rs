@@ -4,8 +4,9 @@ mod certificates;
 #[cfg(feature = "serde")]
 mod files;
 mod learning;
+mod mapper;
 mod properties;
 mod put_down;
 mod runs;
 mod self_check;
-mod walk;
+pub(crate) mod walk;

@@ -12,7 +12,8 @@ use super::walk::{ODOMETRY, Walk, open};
 
 const ACTIONS: u32 = 4;
 
-fn config(seed: u32) -> Config {
+/// Returns a configuration whose choices are the bits of a number.
+pub(super) fn config(seed: u32) -> Config {
     let mut config = Config::new(Config::compass_actions(), 1.0);
     let bit = |number: u32| seed >> number & 1 == 1;
     if bit(0) {
@@ -101,7 +102,7 @@ fn any_move() -> impl Strategy<Value = ObservedMove> {
         )
 }
 
-fn observer_and_moves(
+pub(super) fn observer_and_moves(
     config: &Config,
     mut moves: Vec<ObservedMove>,
 ) -> (Observer, Vec<ObservedMove>) {

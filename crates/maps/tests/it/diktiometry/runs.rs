@@ -1,14 +1,16 @@
 //! Walks of which every figure is pinned.
 
-use rand::SeedableRng;
+use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_geom::PointBox;
+use tolman_geom::{Interval, Point, PointBox, PoseBox};
 use tolman_maps::diktiometry::{
-    Config, FirstPlace, GeometricMerge, Identity, PlaceBelief, PlaceId, Use,
+    Action, Config, Counts, Exits, FirstPlace, GeometricMerge, Identity, MergeProof, MoveOutcome,
+    ObservedMove, Observer, Opportunity, PlaceBelief, PlaceId, Restructured, Signature, Use,
 };
 use tolman_sim::abstract_world::{AbstractWorld, MoveNoise};
 
 use super::walk::{ROUGH, Scripted, Walk, alike, blocks, exits, open, painted, percept};
+use super::{certificates, properties};
 use crate::pinned::pinned;
 
 fn bounds(bounds: PointBox) -> String {
@@ -167,4 +169,160 @@ fn a_walk_that_confuses_places_is_what_it_was() {
     errors.distance = 0.25;
     let (_, figures) = walked(open(7), errors, config, 1);
     pinned("diktiometry_confused", &figures);
+}
+
+/// Returns a move among places a metre apart, which may end at a wall or be a lie.
+fn any_move(rng: &mut ChaCha8Rng) -> ObservedMove {
+    let action = rng.random_range(0..4_u32);
+    let (east, north) = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)][action as usize];
+    let [off, aside, lie] = [0.2, 0.2, 1.0].map(|most| rng.random_range(-most..most));
+    let length = if lie > 0.9 { 2.0 } else { 1.0 };
+    let at = Point::new(length * east + off, length * north + aside);
+    let exits: Vec<Action> = (0..4)
+        .filter(|_| rng.random_bool(0.8))
+        .map(Action)
+        .collect();
+    let look = (0..4)
+        .map(|_| f64::from(rng.random_range(0..3_u32)))
+        .collect();
+    ObservedMove {
+        action: Action(action),
+        odometry: PoseBox::new(PointBox::about(at, 0.25).unwrap(), Interval::ZERO),
+        percept: Some(Signature::new(1, look).unwrap()),
+        exits: if lie < -0.5 {
+            Exits::Unknown
+        } else {
+            Exits::Seen(exits)
+        },
+        outcome: if rng.random_bool(0.15) {
+            MoveOutcome::Blocked
+        } else {
+            MoveOutcome::Arrived
+        },
+    }
+}
+
+/// Returns counts and sums over a map: one figure of each kind of its numbers.
+fn summed(observer: &Observer) -> String {
+    let map = observer.map();
+    let places = || map.paths.places().map(|(_, place)| place);
+    let links = || {
+        map.paths
+            .links()
+            .map(|(id, link)| (map.paths.chance(id), link))
+    };
+    let frames = || {
+        map.reference
+            .frames()
+            .iter()
+            .filter(|frame| !frame.places.is_empty())
+    };
+    let sides =
+        |one: PointBox| one.x.low() + 2.0 * one.x.high() + 3.0 * one.y.low() + 4.0 * one.y.high();
+    let counts = [
+        places().count(),
+        links().count(),
+        frames().count(),
+        observer.tracks().len(),
+        places()
+            .map(|place| place.views.len() + 10 * place.notes.len() + 100 * place.blocked.len())
+            .sum(),
+        places()
+            .flat_map(|place| &place.histories)
+            .map(Vec::len)
+            .sum(),
+        links()
+            .map(|(_, link)| link.traversed as usize + 10 * link.then.len())
+            .sum(),
+        frames().map(|frame| frame.relations.len()).sum(),
+    ];
+    let counted = |counts: Counts| counts.expected() + 2.0 * counts.met();
+    let sums: [f64; 8] = [
+        places().map(|place| sides(place.position)).sum(),
+        places().map(|place| sides(place.envelope)).sum(),
+        places()
+            .flat_map(|place| &place.estims)
+            .map(|estim| estim.weight * estim.position.x)
+            .sum(),
+        places().map(|place| counted(place.counts)).sum(),
+        links().map(|(_, link)| counted(link.counts)).sum(),
+        links().map(|(chance, _)| chance).sum(),
+        frames()
+            .flat_map(|frame| &frame.relations)
+            .map(|one| sides(one.position) + 0.1 * sides(one.envelope))
+            .sum(),
+        observer.tracks().iter().map(|track| track.confidence).sum(),
+    ];
+    let check = observer.self_check();
+    let advice = observer.opportunities();
+    let worth: f64 = advice.iter().map(Opportunity::worth).sum();
+    format!(
+        "{counts:?} {sums:?} {} {} {worth}",
+        check.certainty(),
+        advice.len()
+    )
+}
+
+/// Robots of all configurations that say what they like.
+#[test]
+fn walks_by_every_rule_are_what_they_were() {
+    let mut figures = Vec::new();
+    for seed in 0..48_u32 {
+        let mut rng = ChaCha8Rng::seed_from_u64(u64::from(seed));
+        let mut config = properties::config(rng.random());
+        if seed % 3 > 0 {
+            // Views count, as they are worth nothing to most.
+            config = properties::config(rng.random::<u32>() | 1 << 7);
+        }
+        let moves: Vec<ObservedMove> = (0..100).map(|_| any_move(&mut rng)).collect();
+        let (mut observer, moves) = properties::observer_and_moves(&config, moves);
+        let mut changes = [0; 4];
+        for (number, step) in (1..).zip(&moves) {
+            let report = observer.step(step).unwrap();
+            for change in &report.restructured {
+                changes[match change {
+                    Restructured::Merged { .. } => 0,
+                    Restructured::Split { .. } => 1,
+                    Restructured::PlaceElided(_) => 2,
+                    _ => 3,
+                }] += 1;
+            }
+            if number % 25 == 0 {
+                let culprits = report.contradictions.iter().map(|one| one.culprit);
+                let culprits: Vec<_> = culprits.take(3).collect();
+                let tracks = report
+                    .tracks
+                    .iter()
+                    .take(3)
+                    .map(|one| (one.track, one.matcher, one.place));
+                let tracks: Vec<_> = tracks.collect();
+                figures.push(format!("{seed} {changes:?} {culprits:?} {tracks:?}"));
+                figures.push(summed(&observer));
+            }
+        }
+    }
+    pinned("diktiometry_rules", &figures);
+}
+
+/// The certificates of all merges of some walks.
+#[test]
+fn the_proofs_of_merges_are_what_they_were() {
+    let mut figures = Vec::new();
+    for seed in 0..6 {
+        let mut config = if seed % 2 == 0 { alike() } else { painted() };
+        config.actions = Config::corridor_actions();
+        if seed > 3 {
+            config.restructuring.look_merge = Use::On;
+        }
+        let (_, told) = certificates::walked(config, seed);
+        figures.push(format!("{seed} {:?}", told.unproven));
+        figures.extend(told.certificates.iter().map(|one| {
+            let proof = match &one.proof {
+                MergeProof::Bounds(routes) => format!("{routes:?}"),
+                proof => format!("{proof:?}"),
+            };
+            format!("{:?} {} {proof}", one.visits, one.rests_on_looks)
+        }));
+    }
+    pinned("diktiometry_proofs", &figures);
 }
