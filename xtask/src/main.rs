@@ -55,6 +55,9 @@ enum Verb {
         /// slowest golden runs, the Python module, replays for Rerun
         #[arg(long)]
         thorough: bool,
+        /// Leave out the steps after the tests that have not begun within N minutes, and say so
+        #[arg(long, value_name = "N", default_value_t = u64::MAX, hide_default_value = true)]
+        minutes: u64,
         /// Run this step alone, long or short; may be given several times
         #[arg(long = "step", value_name = "NAME")]
         steps: Vec<String>,
@@ -128,8 +131,9 @@ fn main() -> ExitCode {
         Verb::Ci {
             keep_going,
             thorough,
+            minutes,
             steps,
-        } => ci::run(keep_going, thorough, &steps),
+        } => ci::run(keep_going, thorough, minutes, &steps),
         Verb::Golden { names, bless } => golden::run(&names, bless),
         Verb::Layers => layers::run(),
         Verb::Mazes => mazes::run(),
