@@ -111,7 +111,12 @@ const FUZZING: u64 = 600;
 ///
 /// # Errors
 /// If a step failed, or has no such name.
-pub(crate) fn run(keep_going: bool, thorough: bool, minutes: u64, names: &[String]) -> Result<()> {
+pub(crate) fn run(
+    keep_going: bool,
+    thorough: bool,
+    minutes: Option<u64>,
+    names: &[String],
+) -> Result<()> {
     let start = Instant::now();
     let mut table: Vec<(&str, Duration, String)> = Vec::new();
     let mut failures = 0;
@@ -120,12 +125,12 @@ pub(crate) fn run(keep_going: bool, thorough: bool, minutes: u64, names: &[Strin
         eprintln!("\n== {name}");
         let begun = Instant::now();
         let were_tested = table.iter().any(|(name, ..)| *name == "tests");
-        let is_late = were_tested && start.elapsed().as_secs() / 60 >= minutes;
-        let result = if is_late {
-            let why = format!("{minutes} minutes are over");
-            Ok(Outcome::Skipped(why))
-        } else {
-            step()
+        let is_over = |minutes: &u64| start.elapsed().as_secs() / 60 >= *minutes;
+        let result = match minutes.filter(is_over) {
+            Some(minutes) if were_tested => {
+                Ok(Outcome::Skipped(format!("{minutes} minutes are over")))
+            }
+            _ => step(),
         };
         let verdict = match result {
             Ok(Outcome::Passed) => "ok".to_owned(),

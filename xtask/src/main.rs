@@ -56,8 +56,8 @@ enum Verb {
         #[arg(long)]
         thorough: bool,
         /// Leave out the steps after the tests that have not begun within N minutes, and say so
-        #[arg(long, value_name = "N", default_value_t = u64::MAX, hide_default_value = true)]
-        minutes: u64,
+        #[arg(long, value_name = "N")]
+        minutes: Option<u64>,
         /// Run this step alone, long or short; may be given several times
         #[arg(long = "step", value_name = "NAME")]
         steps: Vec<String>,
