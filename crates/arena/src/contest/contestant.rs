@@ -453,7 +453,7 @@ impl Contestant {
         let mut mapping = mapper(&office, &config);
         if self == Self::DiktiometryBetter {
             mapping.journal = JournalLength::All;
-            mapping.restructuring.beyond_paper();
+            mapping.restructuring.merge_by_looks_and_turns();
         }
         let paper = DiktiometerConfig::paper(routines, mapping);
         let course = office.course.clone();

@@ -357,9 +357,9 @@ pub struct Restructuring {
 }
 
 impl Restructuring {
-    /// Merges by looks and by turns, beyond the paper. Corridors have to lie δ_sep apart, and the
-    /// robot must not overlook a junction.
-    pub const fn beyond_paper(&mut self) {
+    /// Lets places merge by looks and by turns, beyond the paper. Corridors have to lie δ_sep
+    /// apart, and the robot must not overlook a junction.
+    pub const fn merge_by_looks_and_turns(&mut self) {
         self.look_merge = Use::On;
         self.winding_merge = Use::On;
     }

@@ -107,7 +107,7 @@ pub(super) fn restructure(
         let Some(place) = map.paths.resolve(hint) else {
             continue;
         };
-        let noted = if changed || geometric::is_nearness_noted(map, place) {
+        let mut noted = if changed || geometric::is_nearness_noted(map, place) {
             geometric::noted(map, place, config)
         } else {
             look_agreement::noted(map, place, config)
@@ -116,6 +116,7 @@ pub(super) fn restructure(
         if changed {
             done.extend(transients::elide(map, place, occupied, config));
             near = geometric::around(map, place);
+            noted.extend(winding::round(map, place, config));
         }
         for pair in noted.into_iter().chain(geometric::meeting(&near)) {
             let may_merge =

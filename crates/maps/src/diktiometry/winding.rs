@@ -28,7 +28,7 @@ pub(super) trait Corridors {
     fn exits(&self, place: Self::Place) -> &Exits;
 
     /// Returns the place to which an action leads in a static world, or `None` if it is unknown.
-    fn leads(&self, from: Self::Place, action: Action, config: &Config) -> Option<Self::Place>;
+    fn leads(&self, from: Self::Place, action: Action) -> Option<Self::Place>;
 }
 
 /// Corners with a corridor from each to the next, where all turns are like.
@@ -48,20 +48,12 @@ impl<P: Copy + PartialEq> Chain<P> {
         [one, other]: [P; 2],
         config: &Config,
     ) -> Option<Self> {
-        let Exits::Seen(seen) = known.exits(one) else {
-            return None;
-        };
-        let &[left, right] = seen.as_slice() else {
-            return None;
-        };
-        let turns = Turns::new([left, right], config)?;
-        let leads_round =
-            |turns: &Turns| turns.follow(known, one, ROUND, config).get(ROUND) == Some(&other);
-        let turns = [turns, turns.back()].into_iter().find(leads_round)?;
-        let mut corners = turns.back().follow(known, one, LONGEST, config);
+        let mut turns = Turns::from(known.exits(one), config);
+        let turns = turns.find(|turns| turns.round(known, one) == Some(other))?;
+        let mut corners = turns.back().follow(known, one, LONGEST);
         corners.reverse();
         let turns_before = corners.len() - 1;
-        corners.extend(turns.follow(known, one, LONGEST, config).drain(1..));
+        corners.extend(turns.follow(known, one, LONGEST).drain(1..));
         let turns = turns.earlier(turns_before);
         Some(Self { corners, turns })
     }
@@ -88,8 +80,27 @@ impl Turns {
         (is_used && is_turn && is_static).then_some(Self(all))
     }
 
+    /// Returns the turns from a corner with these exits, both ways round. None if it is no corner.
+    pub(super) fn from(exits: &Exits, config: &Config) -> impl Iterator<Item = Self> {
+        let turns = match exits {
+            Exits::Seen(seen) => <[Action; 2]>::try_from(seen.as_slice()).ok(),
+            Exits::Unknown => None,
+        };
+        let turns = turns.and_then(|ways| Self::new(ways, config));
+        turns.into_iter().flat_map(|turns| [turns, turns.back()])
+    }
+
+    /// Returns the corner that is a round after another, or `None` if it is unknown.
+    pub(super) fn round<P: Copy + PartialEq>(
+        &self,
+        known: &impl Corridors<Place = P>,
+        from: P,
+    ) -> Option<P> {
+        self.follow(known, from, ROUND).get(ROUND).copied()
+    }
+
     /// Returns the turns from the same corner the other way round.
-    pub(super) const fn back(self) -> Self {
+    const fn back(self) -> Self {
         let [first, second, third, fourth] = self.0;
         Self([second, first, fourth, third])
     }
@@ -121,12 +132,11 @@ impl Turns {
         known: &impl Corridors<Place = P>,
         from: P,
         corridors: usize,
-        config: &Config,
     ) -> Vec<P> {
         let mut corners = Vec::from([from]);
         let mut here = from;
         for corner in 0..corridors {
-            match known.leads(here, self.action(corner), config) {
+            match known.leads(here, self.action(corner)) {
                 Some(next)
                     if self.fit(corner + 1, known.exits(next)) && !corners.contains(&next) =>
                 {

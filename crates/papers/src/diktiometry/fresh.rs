@@ -89,7 +89,7 @@ impl FreshRow {
     /// Returns the row with looks and turns as evidence.
     const fn by_looks(self) -> Self {
         Self {
-            change: |config| config.restructuring.beyond_paper(),
+            change: |config| config.restructuring.merge_by_looks_and_turns(),
             ..self
         }
     }
@@ -227,13 +227,13 @@ record! {
         /// Share of the map's links that lead where their action truly leads.
         link_precision: f64 => higher("link precision").share().decimals(4),
         /// Number of merges proven by bounds or by turns, each checked against the journal.
-        geometric_certificates: Option<usize> => neither("proofs by bounds"),
+        geometric_certificates: Option<usize> => neither("geometric proofs"),
         /// Number of these that join two true places.
-        false_geometric: Option<usize> => lower("false proofs by bounds"),
+        false_geometric: Option<usize> => lower("false geometric proofs"),
         /// Number of merges proven by bounds or by turns through places that are one by looks.
-        bounds_after_looks: Option<usize> => neither("proofs by bounds after looks"),
+        bounds_after_looks: Option<usize> => neither("geometric proofs after looks"),
         /// Number of these that join two true places.
-        false_after_looks: Option<usize> => lower("false proofs by bounds after looks"),
+        false_after_looks: Option<usize> => lower("false geometric proofs after looks"),
         /// Number of merges by looks, each with its probability, checked against the journal.
         look_certificates: Option<usize> => neither("proofs by looks"),
         /// Number of these that join two true places.

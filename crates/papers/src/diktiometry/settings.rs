@@ -195,7 +195,7 @@ fn mslst(row: &'static str, text: &str) -> Result<Setting, BoxError> {
     let office = Arc::new(Office::new(&file.maze, &furniture)?);
     let mut config = SurveyConfig::of(&office, SurveyorConfig::mslst(), 300);
     // Corridors of thirteen cells leave room for several places: geometry alone proves no loop.
-    config.mapper.restructuring.beyond_paper();
+    config.mapper.restructuring.merge_by_looks_and_turns();
     Ok(Setting::scripted(row, &office, config))
 }
 

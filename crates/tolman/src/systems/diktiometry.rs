@@ -137,7 +137,7 @@ impl SystemEntry for DiktiometryEntry {
         let mut config = SurveyConfig::of(&office, robot, learning.moves);
         config.heed = learning.heed;
         config.mapper.journal = JournalLength::All;
-        config.mapper.restructuring.beyond_paper();
+        config.mapper.restructuring.merge_by_looks_and_turns();
         let survey = Survey::new(&office, config, setup.seed)?;
         Ok(Box::new(Surveying {
             survey,

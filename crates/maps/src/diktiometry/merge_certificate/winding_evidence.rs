@@ -20,7 +20,7 @@ impl Corridors for KnownCorridors<'_> {
         exits(visit, self.journal)
     }
 
-    fn leads(&self, from: usize, action: Action, _: &Config) -> Option<usize> {
+    fn leads(&self, from: usize, action: Action) -> Option<usize> {
         self.identities.leads(from, action)
     }
 }

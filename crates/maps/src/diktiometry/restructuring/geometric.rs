@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use tolman_geom::{Point, PointBox};
 
 use super::look_agreement::{Agreement, agreement, offset_anywhere};
-use super::{Diagnosis, Verdict, winding};
+use super::{Diagnosis, Verdict};
 use crate::diktiometry::{
     Config, Diktiometry, Estim, GeometricMerge, Ground, MergeNote, PlaceId, Use, learn_of_two,
     merge_estims, search, share_a_view, similarity, wanted_anywhere,
@@ -81,9 +81,6 @@ pub(super) fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> V
         let (frame, there) = map.site(b);
         let way = reached.iter().find(|reached| reached.frame == frame);
         let mut offset = way.map(|way| way.position + there - position);
-        if offset.is_none() && winding::is_round(map, [a, b], config) {
-            offset = Some(offset_anywhere(map, a, b));
-        }
         if let (None, Some(wanted)) = (offset, wanted) {
             match agreement(map, a, b, wanted, config) {
                 Agreement::Enough => offset = Some(offset_anywhere(map, a, b)),

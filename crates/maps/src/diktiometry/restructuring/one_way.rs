@@ -17,9 +17,9 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
     Verdict::propose_if(beside(map, pair.a, config).any(leads_to_both))
 }
 
-/// Returns the places and actions that lead to a place: by their own links, or by the reverse of
-/// its links.
-fn beside<'a>(
+/// Returns the places and actions that lead to a place: by the reverse of its links, or by their
+/// own.
+pub(super) fn beside<'a>(
     map: &'a Diktiometry,
     place: PlaceId,
     config: &'a Config,
@@ -28,5 +28,5 @@ fn beside<'a>(
     let came = came.map(|(_, link)| (link.from, link.action));
     let left = map.paths.outgoing(place);
     let left = left.filter_map(|(_, link)| Some((link.to, config.reverse(link.action)?)));
-    came.chain(left)
+    left.chain(came)
 }

@@ -6,21 +6,37 @@ use alloc::vec::Vec;
 
 use tolman_geom::{Interval, PointBox};
 
-use super::Verdict;
 use super::geometric::Pair;
+use super::look_agreement::offset_anywhere;
+use super::{Verdict, one_way};
 use crate::diktiometry::{
-    Action, Chain, Config, Corridors, Diktiometry, Exits, PlaceId, is_rectangle,
+    Action, Chain, Config, Corridors, Diktiometry, Exits, PlaceId, Turns, is_rectangle,
 };
+
+/// Returns the pairs of a place and another that is a round of a rectangle away. Their box may be
+/// too wide for a search to reach. O(corridors²).
+pub(super) fn round(map: &Diktiometry, a: PlaceId, config: &Config) -> Vec<Pair> {
+    let known = MapCorridors { map, config };
+    let ends = Turns::from(known.exits(a), config).filter_map(|turns| turns.round(&known, a));
+    let ends = ends.filter(|b| leads_round(&known, [a, *b]));
+    let pair = |b| Pair {
+        a,
+        b,
+        offset: offset_anywhere(map, a, b),
+    };
+    ends.map(pair).collect()
+}
 
 /// Returns the opinion on merging two places because the way from one to the other leads round a
 /// rectangle. O(corridors²).
 pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
-    Verdict::propose_if(is_round(map, [pair.a, pair.b], config))
+    let known = MapCorridors { map, config };
+    Verdict::propose_if(leads_round(&known, [pair.a, pair.b]))
 }
 
-/// Returns whether one of two places is a round of a rectangle after the other. O(corridors²).
-pub(super) fn is_round(map: &Diktiometry, places: [PlaceId; 2], config: &Config) -> bool {
-    let Some(chain) = Chain::through(map, places, config) else {
+fn leads_round(known: &MapCorridors<'_>, places: [PlaceId; 2]) -> bool {
+    let MapCorridors { map, config } = *known;
+    let Some(chain) = Chain::through(known, places, config) else {
         return false;
     };
     let corridors = chain.corners.windows(2).enumerate();
@@ -31,22 +47,22 @@ pub(super) fn is_round(map: &Diktiometry, places: [PlaceId; 2], config: &Config)
     is_rectangle(&lengths.collect::<Vec<Interval>>(), config)
 }
 
-impl Corridors for Diktiometry {
+/// Corridors as far as the map knows them.
+struct MapCorridors<'a> {
+    map: &'a Diktiometry,
+    config: &'a Config,
+}
+
+impl Corridors for MapCorridors<'_> {
     type Place = PlaceId;
 
     fn exits(&self, place: PlaceId) -> &Exits {
-        &self.place(place).exits
+        &self.map.place(place).exits
     }
 
-    fn leads(&self, from: PlaceId, action: Action, config: &Config) -> Option<PlaceId> {
-        let mut gone = self.paths.along(from, action);
-        let came = || {
-            let mut came = self.paths.incoming(from);
-            let back = config.reverse(action);
-            came.find(|(_, link)| Some(link.action) == back)
-        };
-        gone.next()
-            .map(|(_, link)| link.to)
-            .or_else(|| came().map(|(_, link)| link.from))
+    fn leads(&self, from: PlaceId, action: Action) -> Option<PlaceId> {
+        let back = self.config.reverse(action)?;
+        let mut ends = one_way::beside(self.map, from, self.config);
+        ends.find_map(|(end, leads_here)| (leads_here == back).then_some(end))
     }
 }

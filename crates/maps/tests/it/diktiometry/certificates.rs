@@ -13,15 +13,23 @@ use tolman_sim::abstract_world::AbstractWorld;
 
 use super::walk::{ODOMETRY, Walk, alike, blocks, painted};
 
-/// Returns a walk through corridors where nothing changes, and what is proven of its map.
-pub(super) fn walked(mut config: Config, seed: u64) -> (Walk, CertifiedMerges) {
+/// Returns a walk through blocks where nothing changes, and what is proven of its map.
+pub(super) fn walked(config: Config, seed: u64) -> (Walk, CertifiedMerges) {
     let maze = blocks(5, 0.25, &mut ChaCha8Rng::seed_from_u64(seed));
-    let world = AbstractWorld::from_maze(&maze, 1.0);
+    certified(AbstractWorld::from_maze(&maze, 1.0), 300, config, seed)
+}
+
+fn certified(
+    world: AbstractWorld,
+    moves: usize,
+    mut config: Config,
+    seed: u64,
+) -> (Walk, CertifiedMerges) {
     config.journal = JournalLength::All;
     config.world = WorldKind::Static;
     config.apart = Apart::Side;
     let mut walk = Walk::new(world, ODOMETRY, config, seed);
-    walk.heed(0.3, 300);
+    walk.heed(0.3, moves);
     let journal = walk.observer.journal().unwrap();
     let told = certify_merges(walk.observer.config(), journal).unwrap();
     (walk, told)
@@ -30,6 +38,13 @@ pub(super) fn walked(mut config: Config, seed: u64) -> (Walk, CertifiedMerges) {
 fn verified(walk: &Walk, certificates: &[MergeCertificate]) -> Result<(), MergeCertificateError> {
     let journal = walk.observer.journal().unwrap();
     verify_merges(walk.observer.config(), journal, certificates)
+}
+
+fn assert_true(walk: &Walk, told: &CertifiedMerges) {
+    for certificate in &told.certificates {
+        let [one, other] = certificate.visits.map(|visit| walk.log[visit].0);
+        assert_eq!(one, other, "{certificate:?}");
+    }
 }
 
 fn corridors() -> Config {
@@ -44,10 +59,7 @@ fn merges_are_proven_and_what_is_proven_is_true() {
     for seed in 0..6 {
         let (walk, told) = walked(corridors(), seed);
         assert_eq!(verified(&walk, &told.certificates), Ok(()));
-        for certificate in &told.certificates {
-            let [one, other] = certificate.visits.map(|visit| walk.log[visit].0);
-            assert_eq!(one, other, "seed {seed}: {certificate:?}");
-        }
+        assert_true(&walk, &told);
         assert_eq!(told.unproven, [[0; 2]; 0], "seed {seed}");
         proven += told.certificates.len();
     }
@@ -55,33 +67,25 @@ fn merges_are_proven_and_what_is_proven_is_true() {
 }
 
 /// Returns a walk through the corridors of a drawing, where everything looks alike.
-fn wound(drawing: &Maze, moves: usize, seed: u64) -> (Walk, CertifiedMerges) {
+fn wound(drawing: &Maze, seed: u64) -> (Walk, CertifiedMerges) {
     let mut config = corridors();
-    config.journal = JournalLength::All;
-    config.world = WorldKind::Static;
-    config.apart = Apart::Side;
     config.restructuring.winding_merge = Use::On;
     let world = AbstractWorld::from_corridors(drawing, 1.0);
-    let mut walk = Walk::new(world, ODOMETRY, config, seed);
-    walk.heed(0.3, moves);
-    let journal = walk.observer.journal().unwrap();
-    let told = certify_merges(walk.observer.config(), journal).unwrap();
-    (walk, told)
+    certified(world, 200, config, seed)
 }
 
 #[test]
 fn a_ring_is_proven_by_its_turns() {
     let mut proven = 0;
-    for seed in 0..8 {
+    for seed in 0..16 {
         let size = 6 + seed as u16;
         let ring = ring((size, size), &mut ChaCha8Rng::seed_from_u64(seed)).unwrap();
-        let (walk, told) = wound(&ring, 200, seed);
+        let (walk, told) = wound(&ring, seed);
         assert_eq!(walk.observer.map().paths.places().count(), 4, "seed {seed}");
         assert_eq!(verified(&walk, &told.certificates), Ok(()));
         assert_eq!(told.unproven, [[0; 2]; 0], "seed {seed}");
+        assert_true(&walk, &told);
         for certificate in &told.certificates {
-            let [one, other] = certificate.visits.map(|visit| walk.log[visit].0);
-            assert_eq!(one, other, "seed {seed}: {certificate:?}");
             let by_turns = matches!(certificate.proof, MergeProof::Winding(_));
             proven += usize::from(by_turns && !certificate.rests_on_looks);
         }
@@ -94,11 +98,8 @@ fn a_spiral_is_no_ring() {
     for seed in 0..8 {
         let size = 6 + seed as u16;
         let spiral = spiral((size, size), &mut ChaCha8Rng::seed_from_u64(seed)).unwrap();
-        let (walk, told) = wound(&spiral, 200, seed);
-        for certificate in &told.certificates {
-            let [one, other] = certificate.visits.map(|visit| walk.log[visit].0);
-            assert_eq!(one, other, "seed {seed}: {certificate:?}");
-        }
+        let (walk, told) = wound(&spiral, seed);
+        assert_true(&walk, &told);
     }
 }
 
