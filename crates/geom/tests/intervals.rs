@@ -458,3 +458,41 @@ proptest! {
         prop_assert!((pose.heading.degrees() - degrees).abs() < 1e-9);
     }
 }
+
+/// Relations of two intervals, by all numbers on a small lattice.
+#[test]
+fn relations_are_those_of_the_numbers_inside() {
+    let bounds = (0..5).flat_map(|low| (low..5).map(move |high| (low, high)));
+    let all: Vec<(i32, i32)> = bounds.collect();
+    let of = |(low, high): (i32, i32)| interval(f64::from(low), f64::from(high));
+    for (a, b) in all.iter().flat_map(|a| all.iter().map(move |b| (*a, *b))) {
+        let inside = |(low, high): (i32, i32), number: i32| (low..=high).contains(&number);
+        let (one, other) = (of(a), of(b));
+        let encloses = (0..5).all(|number| !inside(b, number) || inside(a, number));
+        assert_eq!(one.encloses(other), encloses, "{a:?} {b:?}");
+        let meets = (0..5).any(|number| inside(a, number) && inside(b, number));
+        assert_eq!(one.meets(other), meets, "{a:?} {b:?}");
+        let gap = (a.0 - b.1).max(b.0 - a.1).max(0);
+        assert!(one.gap(other) <= f64::from(gap) && one.gap(other) > f64::from(gap) - 1e-9);
+        let both = meets.then(|| (a.0.max(b.0), a.1.min(b.1)));
+        assert_eq!(one.intersection(other), both.map(of));
+        assert_eq!(one.hull(other), of((a.0.min(b.0), a.1.max(b.1))));
+        let boxes = [(one, other), (other, one), (one, one)].map(|(x, y)| PointBox::new(x, y));
+        assert_eq!(boxes[2].encloses(boxes[0]), encloses, "{a:?} {b:?}");
+        assert_eq!(boxes[2].encloses(boxes[1]), encloses, "{a:?} {b:?}");
+    }
+}
+
+#[test]
+fn the_way_between_headings_is_the_shorter_one() {
+    for (from, to, turn) in [
+        (10.0, 50.0, 40.0),
+        (170.0, -170.0, 20.0),
+        (-100.0, 100.0, -160.0),
+    ] {
+        let [from, to] = [from, to].map(Heading::from_degrees);
+        assert!((from.turn_to(to).to_degrees() - turn).abs() < 1e-9);
+        let there = from.turned(from.turn_to(to));
+        assert!((there.radians() - to.radians()).abs() < 1e-12);
+    }
+}

@@ -107,6 +107,47 @@ proptest! {
     }
 }
 
+/// One corridor to and fro over seven rows, the same from both ends but for one opening after more
+/// than two rows.
+#[test]
+fn what_tells_poses_apart_may_lie_far_off() {
+    let grid = Grid::new(16, 7);
+    let mut maze = Maze::solid(grid);
+    for y in 0..7 {
+        for x in 0..15 {
+            maze.set_wall(Cell::new(x, y), Direction::East, false);
+        }
+        let end = if y % 2 == 0 { 15 } else { 0 };
+        if y < 6 {
+            maze.set_wall(Cell::new(end, y), Direction::North, false);
+        }
+    }
+    maze.set_wall(Cell::new(3, 2), Direction::North, false);
+    for (start, looks) in [
+        (Cell::new(0, 0), Direction::East),
+        (Cell::new(15, 6), Direction::South),
+    ] {
+        let (mut at, mut heading) = (start, looks);
+        let mut poses = PoseSet::<16>::anywhere(grid).unwrap();
+        let mut driven = 0;
+        loop {
+            for side in Direction::ALL {
+                poses.see(&maze, side, maze.is_open(at, seen_as(heading, side)));
+            }
+            let Some(side) = poses.next_drive(&maze) else {
+                break;
+            };
+            heading = seen_as(heading, side);
+            at = grid.neighbour(at, heading).unwrap();
+            poses.drive(&maze, side);
+            driven += 1;
+        }
+        let found = PoseKnowledge::Found { cell: at, heading };
+        assert_eq!(poses.location(), found, "after {driven}");
+        assert!(driven > 32, "{driven}");
+    }
+}
+
 #[test]
 fn a_wrong_wall_leaves_nowhere_to_be() {
     let maze = Maze::open(Grid::new(2, 2));

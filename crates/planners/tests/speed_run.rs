@@ -7,8 +7,9 @@ use std::path::PathBuf;
 use proptest::prelude::*;
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Maze, Walls};
 use tolman_planners::speed_run::{
-    Decision, Extent, Replanning, RunState, SpeedRunCertificate, SpeedRunConfig, SpeedRunExplorer,
-    SpeedRunMap, SpeedRunPlanner, SpeedRunTimes, best_possible_ms,
+    Decision, Extent, Replanning, RunMove, RunState, SpeedRunCertificate, SpeedRunCertificateError,
+    SpeedRunConfig, SpeedRunExplorer, SpeedRunMap, SpeedRunPlanner, SpeedRunTimes,
+    best_possible_ms,
 };
 use tolman_planners::{Passages, Unknown};
 
@@ -289,5 +290,34 @@ fn competition_mazes_are_explored_and_certified() {
             assert!(found.is_some());
             assert_eq!(found, best, "\n{maze}");
         }
+    }
+}
+
+/// Beyond the border there is no way, even where the first wall inside is open.
+#[test]
+fn no_run_leads_over_the_border() {
+    let maze = Maze::open(Grid::new(3, 3));
+    let config = SpeedRunConfig::classic();
+    for (cell, heading) in [
+        (Cell::new(0, 1), Direction::West),
+        (Cell::new(1, 0), Direction::South),
+        (Cell::new(2, 1), Direction::East),
+        (Cell::new(1, 2), Direction::North),
+        (Cell::new(0, 0), Direction::West),
+        (Cell::new(0, 0), Direction::South),
+    ] {
+        let run_move = RunMove::Straight { cells: 1 };
+        let certificate = SpeedRunCertificate {
+            start: cell,
+            heading,
+            moves: vec![run_move],
+            time_ms: 0,
+        };
+        let told = certificate.check(&maze, &config, &[cell]);
+        let expected = SpeedRunCertificateError::NotOpen {
+            number: 0,
+            run_move,
+        };
+        assert_eq!(told, Err(expected), "{cell:?} {heading:?}");
     }
 }

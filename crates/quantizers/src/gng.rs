@@ -383,3 +383,102 @@ impl<S: Scalar> Quantizer<S> for Gng<S> {
         self.network.events()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns three units, at 0, 1 and 5, that never move, and whose sums never decay.
+    fn resting(error: ErrorKind) -> Gng<f64> {
+        let mut config = GngConfig::fritzke();
+        (config.winner_rate, config.neighbour_rate) = (0.0, 0.0);
+        (config.decay, config.error) = (1.0, error);
+        (config.growth_period, config.max_units) = (1000, 3);
+        config.utility = Some(Utility {
+            threshold: 1e9,
+            removal: Removal::WhenFull,
+        });
+        let mut gng = Gng::weighted(&[4.0], config).unwrap();
+        gng.begin_with(&[[0.0], [1.0], [5.0]]).unwrap();
+        gng
+    }
+
+    /// Distances count twice, as their squares have a weight of 4.
+    #[test]
+    fn the_winner_gathers_its_error_and_what_it_spares() {
+        for error in [ErrorKind::Squared, ErrorKind::Absolute, ErrorKind::Relative] {
+            let mut gng = resting(error);
+            let (mut errors, mut utilities) = ([0.0; 3], [0.0; 3]);
+            for input in [0.2, 0.4, 0.9, 4.0, 6.5, -1.0] {
+                gng.observe(&[input]).unwrap();
+                let by = |unit: f64| {
+                    let distance = 2.0 * (input - unit).abs();
+                    match error {
+                        ErrorKind::Squared => distance * distance,
+                        ErrorKind::Absolute => distance,
+                        ErrorKind::Relative => distance / (2.0 * input.abs()),
+                    }
+                };
+                let mut all = [0.0, 1.0, 5.0]
+                    .map(by)
+                    .into_iter()
+                    .enumerate()
+                    .collect::<Vec<_>>();
+                all.sort_by(|a, b| a.1.total_cmp(&b.1));
+                errors[all[0].0] += all[0].1;
+                utilities[all[0].0] += all[1].1 - all[0].1;
+            }
+            for slot in 0..3 {
+                let sums = gng.sums[slot];
+                assert!((gng.decay.value(sums.error) - errors[slot]).abs() < 1e-9);
+                assert!((gng.decay.value(sums.utility) - utilities[slot]).abs() < 1e-9);
+                assert!((gng.error(UnitId(slot as u32)).unwrap() - errors[slot]).abs() < 1e-9);
+            }
+            let mean = errors.iter().sum::<f64>() / 3.0;
+            assert!((gng.mean_error() - mean).abs() < 1e-9);
+        }
+    }
+
+    /// Two units that had only each other: the one that stays is joined to the nearest of the rest.
+    #[test]
+    fn a_merged_unit_is_joined_only_if_it_has_no_edge() {
+        for is_joined in [false, true] {
+            let mut gng = Gng::new(1, GngConfig::fritzke()).unwrap();
+            gng.begin_with(&[[0.0], [1.0], [6.0], [5.0]]).unwrap();
+            for (slot, sums) in gng.sums.iter_mut().enumerate() {
+                (sums.error, sums.utility) = (slot as f64 + 1.0, 10.0 * slot as f64);
+            }
+            if !is_joined {
+                gng.network.link(1, 2, 99);
+                gng.network.cut_old_edges(1, 50);
+            }
+            gng.merge(UnitId(0), UnitId(1)).unwrap();
+            let mut ends: Vec<_> = gng.network.edges().map(|edge| edge.ends).collect();
+            ends.sort_unstable();
+            let joined = if is_joined { 2 } else { 3 };
+            let joined = (UnitId(1), UnitId(joined));
+            assert_eq!(ends, [joined, (UnitId(2), UnitId(3))], "{is_joined}");
+            let slot = gng.network.slot(UnitId(1)).unwrap();
+            let Sums { error, utility } = gng.sums[slot];
+            assert!((error - 3.0).abs() < 1e-12 && (utility - 10.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_relative_error_is_a_share_of_the_input_s_length() {
+        for (squared, length, expected) in [
+            (4.0, 16.0, 0.5),
+            (9.0, 1.0, 3.0),
+            (0.0, 16.0, 0.0),
+            (0.0, 0.0, 0.0),
+            // Any distance from an input at the origin counts as 1.
+            (4.0, 0.0, 1.0),
+        ] {
+            let found = relative_error(squared, length);
+            assert!(
+                (found - expected).abs() < 1e-12,
+                "{squared} {length}: {found}"
+            );
+        }
+    }
+}

@@ -386,4 +386,29 @@ mod tests {
         }
         assert!(undone > 5 && done > 5, "{undone} undone, {done} done");
     }
+
+    fn tally(error: f64, wins: f64, since: u64, radius: Option<f64>) -> Tally {
+        Tally {
+            error,
+            wins,
+            since,
+            radius,
+        }
+    }
+
+    /// The shares of the dissertation's step 10: a third of the errors and a quarter of the wins go
+    /// to the unit between.
+    #[test]
+    fn an_insertion_hands_on_errors_and_wins() {
+        let q = tally(6.0, 8.0, 3, Some(0.5));
+        let f = tally(3.0, 4.0, 2, Some(1.5));
+        assert_eq!(q.reduced(), tally(4.0, 6.0, 3, Some(0.5)));
+        assert_eq!(Tally::between(q, f), tally(1.5, 3.0, 2, Some(0.5)));
+        let new = tally(3.0, 4.0, 2, None);
+        assert_eq!(Tally::between(q, new).radius, None);
+        assert_eq!(Tally::between(new, q).radius, None);
+        assert_eq!(q.remembering(), tally(6.0, 8.0, 3, Some(0.75)));
+        assert!(q.has_grown() && !q.remembering().has_grown() && !new.has_grown());
+        assert_eq!(Tally::new(7), tally(0.0, 1.0, 7, None));
+    }
 }

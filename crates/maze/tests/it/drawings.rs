@@ -4,9 +4,9 @@ use proptest::prelude::*;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tolman_maze::drawings::{
-    blocks, comb, eight, ladder, office, pillars, ring, spiral, star, wings,
+    blocks, comb, eight, ladder, ladder_of, office, pillars, ring, spiral, star, wings,
 };
-use tolman_maze::{Braided, Cell, GenerateError, Maze};
+use tolman_maze::{Braided, Cell, Direction, GenerateError, Hook, Maze, OneLoop, Rooms};
 
 type Draw = fn((u16, u16), &mut ChaCha8Rng) -> Result<Maze, GenerateError>;
 
@@ -111,6 +111,113 @@ proptest! {
         prop_assert_eq!(maze.check(), Ok(()));
         prop_assert!(maze.steps_to_goal().iter().all(Option::is_some));
         prop_assert!(!has_room(&maze), "\n{}", maze);
+    }
+}
+
+/// Every drawing and every corridor maze of some seeds, compared with `drawings.txt`.
+/// `TOLMAN_PIN=1` writes them there instead, where a change is meant.
+#[test]
+fn all_are_drawn_as_they_were() {
+    let mut text = String::new();
+    let mut add = |name: &str, maze: Maze| {
+        let start = maze
+            .start()
+            .map(|(cell, heading)| format!("{cell:?} {heading:?}"));
+        let start = start.unwrap_or_default();
+        text.push_str(&format!("{name} {start} {:?}\n{maze}\n", maze.goals()));
+    };
+    for (name, draw) in ALL {
+        for (seed, size) in [(1, (11, 7)), (2, (6, 10))] {
+            add(name, drawn(draw, size, seed));
+        }
+    }
+    for seed in [1, 2, 3] {
+        let rng = &mut ChaCha8Rng::seed_from_u64(seed);
+        let hook = Hook {
+            width: 4 + seed as u16,
+            height: 6,
+        };
+        add("hook", hook.generate(rng).unwrap());
+        let loops = OneLoop {
+            width: 9 + seed as u16,
+            height: 6,
+            dead_ends: 4,
+            short: 2 + seed as u32,
+        };
+        add("one loop", loops.generate(rng).unwrap());
+        let braided = Braided {
+            width: 8,
+            height: 5,
+            share: 0.3 * seed as f64,
+        };
+        add("braided", braided.generate_corridors(rng).unwrap());
+        let rooms = Rooms {
+            width: 12,
+            height: 7,
+            attempts: 8,
+            smallest: 2,
+            largest: 1 + seed as u16,
+            extra_doors: 2,
+        };
+        // The largest room is as small as the smallest at first.
+        add("rooms", rooms.generate(rng).unwrap());
+    }
+    for rungs in [3, 4] {
+        let rng = &mut ChaCha8Rng::seed_from_u64(5);
+        add("ladder of", ladder_of(rungs, rng).unwrap());
+    }
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/it/drawings.txt");
+    if std::env::var_os("TOLMAN_PIN").is_some() {
+        std::fs::write(path, &text).unwrap();
+    }
+    let expected = std::fs::read_to_string(path).unwrap();
+    for (found, expected) in text.split("\n\n").zip(expected.split("\n\n")) {
+        assert_eq!(found, expected, "is the change meant?\n{found}");
+    }
+    assert_eq!(text.len(), expected.len());
+}
+
+/// The straight ways of a maze are counted again: a corridor runs from one bend, junction or dead
+/// end to the next.
+#[test]
+fn three_of_four_corridors_of_one_loop_are_short() {
+    for seed in 0..12 {
+        let short = 2 + (seed % 3) as u32;
+        let drawing = OneLoop {
+            width: 11,
+            height: 7,
+            dead_ends: 3,
+            short,
+        };
+        let maze = drawing
+            .generate(&mut ChaCha8Rng::seed_from_u64(seed))
+            .unwrap();
+        let open = |cell, direction| maze.is_open(cell, direction);
+        let goes_on = |cell: Cell, direction: Direction| {
+            maze.degree(cell) == 2 && open(cell, direction) && open(cell, direction.opposite())
+        };
+        let mut lengths = Vec::new();
+        for cell in maze.reachable() {
+            for direction in [Direction::North, Direction::East] {
+                if !open(cell, direction) || goes_on(cell, direction) {
+                    continue;
+                }
+                let (mut at, mut length) = (cell, 0);
+                loop {
+                    at = maze.grid().neighbour(at, direction).unwrap();
+                    length += 1;
+                    if !goes_on(at, direction) {
+                        break;
+                    }
+                }
+                lengths.push(length);
+            }
+        }
+        let count = lengths.iter().filter(|length| **length <= short).count();
+        assert!(
+            4 * count >= 3 * lengths.len(),
+            "{short} {lengths:?}\n{maze}"
+        );
     }
 }
 

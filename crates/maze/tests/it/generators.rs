@@ -273,6 +273,28 @@ fn what_cannot_be_drawn_says_why() {
             height: 3
         })
     );
+    for (width, height) in [(2, 9), (9, 2), (1, 1), (0, 3)] {
+        let narrow = OneLoop {
+            width,
+            height,
+            dead_ends: 0,
+            short: 9,
+        };
+        let refused = narrow.generate(&mut rng(1));
+        assert_eq!(refused, Err(GenerateError::Size { width, height }));
+    }
+    // Wide enough to be drawn, but not for a crossing.
+    let least = OneLoop {
+        width: 3,
+        height: 3,
+        dead_ends: 0,
+        short: 9,
+    };
+    let refused = least.generate(&mut rng(1)).unwrap_err();
+    assert!(
+        matches!(refused, GenerateError::Features { .. }),
+        "{refused}"
+    );
     let drawing = OneLoop {
         width: 5,
         height: 5,

@@ -42,3 +42,32 @@ impl Play {
             .map(|(_, steps)| steps)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_play_keeps_its_first_stages() {
+        let stage = |number: u16| Stage {
+            at: Cell::new(number % 16, 3),
+            learned: u64::from(number) * 7,
+        };
+        let mut play = Play::new();
+        assert_eq!(play.steps_at(stage(0)), None);
+        for number in 0..100 {
+            play.record(stage(number), f32::from(number) + 0.5);
+        }
+        for number in 0..100 {
+            let kept = usize::from(number) < Play::MOST;
+            let steps = kept.then(|| f32::from(number) + 0.5);
+            assert_eq!(play.steps_at(stage(number)), steps, "{number}");
+        }
+        // The same cell with other sides seen is another stage.
+        let other = Stage {
+            learned: 1,
+            ..stage(0)
+        };
+        assert_eq!(play.steps_at(other), None);
+    }
+}

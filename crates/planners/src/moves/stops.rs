@@ -48,3 +48,44 @@ impl<const K: usize> Stops<K> {
         self.best.iter().flatten().map(|(_, cell)| *cell)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    extern crate alloc;
+
+    use alloc::vec::Vec;
+
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        /// All offers sorted, and the first of them kept.
+        #[test]
+        fn the_best_are_kept_in_order(
+            offers in prop::collection::vec((0..6_u16, (0..9_u16, 0..9_u16)), 0..12),
+            above in 0..6_u16,
+        ) {
+            let mut stops = Stops::<4>::new();
+            let mut all: Vec<(f32, Cell)> = Vec::new();
+            for (score, (x, y)) in offers {
+                let (score, cell) = (f32::from(score), Cell::new(x, y));
+                if all.iter().any(|(_, known)| *known == cell) {
+                    continue;
+                }
+                stops.offer(score, cell);
+                all.push((score, cell));
+            }
+            all.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1.y, a.1.x).cmp(&(b.1.y, b.1.x))));
+            all.truncate(4);
+            let cells: Vec<Cell> = all.iter().map(|(_, cell)| *cell).collect();
+            prop_assert_eq!(stops.iter().collect::<Vec<_>>(), cells.clone());
+            prop_assert_eq!(stops.best(), cells.first().copied());
+            let lowest = all.get(3).map_or(f32::NEG_INFINITY, |(score, _)| *score);
+            prop_assert_eq!(stops.lowest().to_bits(), lowest.to_bits());
+            let above = f32::from(above);
+            let best = all.first().filter(|(score, _)| *score > above);
+            prop_assert_eq!(stops.best_above(above), best.map(|(_, cell)| *cell));
+        }
+    }
+}

@@ -48,3 +48,24 @@ impl<S: Scalar> Network<S> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_error_is_measured_from_the_nearest_unit() {
+        let mut network = Network::<f64>::new(2).unwrap();
+        for unit in [[0.0, 0.0], [10.0, 0.0]] {
+            network.insert(&unit);
+        }
+        let inputs = [[0.0, 3.0], [10.0, -4.0], [6.0, 0.0], [0.0, 0.0], [1.0, 0.0]];
+        let error = network.quantization_error(inputs).unwrap();
+        let distances = [3.0_f64, 4.0, 4.0, 0.0, 1.0];
+        let squares: f64 = distances.iter().map(|distance| distance * distance).sum();
+        assert!((error.mean_squared - squares / 5.0).abs() < 1e-12);
+        assert!((error.mean - distances.iter().sum::<f64>() / 5.0).abs() < 1e-12);
+        assert!((error.largest - 4.0).abs() < 1e-12);
+        assert_eq!(error.inputs, 5);
+    }
+}

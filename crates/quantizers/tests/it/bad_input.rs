@@ -191,3 +191,17 @@ proptest! {
         prop_assert!(Gng::try_from(SavedGng::from(gng)).is_ok());
     }
 }
+
+/// A feature whose weight is zero tells nothing, even if it is the only one compared.
+#[test]
+fn only_features_that_weigh_are_compared() {
+    let mut gng = Gng::<f64>::weighted(&[0.0, 2.0], GngConfig::fritzke()).unwrap();
+    for input in [[0.0, 0.0], [1.0, 1.0]] {
+        gng.observe(&input).unwrap();
+    }
+    let nearest = |mask: [bool; 2]| gng.network().nearest_two_masked(&[0.0, 0.9], &mask);
+    assert_eq!(nearest([true, false]), Err(InputError::NothingCompared));
+    for mask in [[false, true], [true, true]] {
+        assert_eq!(nearest(mask).unwrap().first.id, UnitId(1));
+    }
+}

@@ -100,6 +100,31 @@ fn mse<Q: Quantizer<f64>>(quantizer: &Q, stream: &[Vec<f64>]) -> f64 {
         .mean_squared
 }
 
+/// The memory of recent inputs holds the last ones, whatever came before.
+#[test]
+fn recent_inputs_push_out_the_oldest() {
+    let mut config = ReplayConfig::measured(3);
+    config.capacity = 7;
+    config.per_input = 1;
+    config.memory = ReplayMemory::Recent;
+    let gng = Gng::<f64>::new(2, GngConfig::fritzke()).unwrap();
+    let mut replay = ReplayQuantizer::new(gng, config).unwrap();
+    for number in 0..40_u32 {
+        let input = [f64::from(number), 0.5];
+        replay.observe(&input).unwrap();
+        let count = (number as usize + 1).min(7);
+        assert_eq!(replay.remembered(), count);
+        let saved = SavedReplay::from(replay.clone());
+        let mut kept: Vec<f64> = saved.memory.chunks(2).map(|input| input[0]).collect();
+        kept.sort_by(f64::total_cmp);
+        let last = (0..=number).rev().take(count).map(f64::from);
+        let mut last: Vec<f64> = last.collect();
+        last.reverse();
+        assert_eq!(kept, last);
+        assert_eq!(saved.seen, u64::from(number) + 1);
+    }
+}
+
 #[test]
 fn the_order_of_a_stream_does_not_matter() {
     let streams: [(&str, Stream); 4] = [

@@ -446,6 +446,61 @@ fn configurations_out_of_range_are_refused() {
     );
 }
 
+/// A point seen again before there are two units is a win of the first.
+#[test]
+fn one_point_wins_as_often_as_it_is_seen() {
+    let mut soinn = Soinn::<f64>::new(2, SoinnConfig::noisy()).unwrap();
+    for _ in 0..5 {
+        soinn.observe(&[1.0, 2.0]).unwrap();
+    }
+    assert_eq!(soinn.network().len(), 1);
+    let id = soinn.network().ids().next().unwrap();
+    assert!((soinn.wins(id).unwrap() - 5.0).abs() < 1e-12);
+    assert!(soinn.error(id).unwrap().abs() < 1e-12);
+    assert_eq!(soinn.steps(), 0);
+}
+
+/// Four squares at growing distances, or one: the threshold is the least gap that is no shorter
+/// than a mean edge, and the longest edge where there is no gap.
+#[test]
+fn the_least_of_several_gaps_is_the_threshold() {
+    for places in [&[0.0, 20.0, 52.0, 97.0][..], &[0.0]] {
+        let mut first = Soinn::<f64>::new(2, SoinnConfig::noisy()).unwrap();
+        let mut chance = ChaCha8Rng::seed_from_u64(4);
+        for step in 0..12_000_usize {
+            let x = places[step % places.len()] + 5.0 * chance.random::<f64>();
+            first.observe(&[x, 5.0 * chance.random::<f64>()]).unwrap();
+        }
+        first.remove_noise();
+        let network = first.network();
+        assert_eq!(network.clusters().count(), places.len());
+        let at = |id| network.prototype(id).unwrap().collect::<Vec<f64>>();
+        let square = |place: &[f64]| places.iter().rposition(|begin| place[0] >= begin - 1.0);
+        let units: Vec<Vec<f64>> = network.ids().map(at).collect();
+        let pairs = units.iter().flat_map(|a| units.iter().map(move |b| (a, b)));
+        let gaps = pairs.filter(|(a, b)| square(a) != square(b));
+        let gap = gaps
+            .map(|(a, b)| squared(a, b).sqrt())
+            .fold(f64::INFINITY, f64::min);
+        let lengths = network
+            .edges()
+            .map(|edge| squared(&at(edge.ends.0), &at(edge.ends.1)).sqrt());
+        let longest = lengths.fold(0.0, f64::max);
+        let expected = if places.len() > 1 { gap } else { longest };
+        let mut config = SecondLayerConfig::shen_hasegawa();
+        config.threshold = SecondThreshold::BetweenClusters;
+        let layer = first
+            .second_layer(&config, &mut ChaCha8Rng::seed_from_u64(0))
+            .unwrap();
+        match layer.config().threshold {
+            SimilarityThreshold::Constant(distance) => {
+                assert!((distance - expected).abs() < 1e-9, "{distance} {expected}");
+            }
+            other => panic!("{other:?}"),
+        }
+    }
+}
+
 #[test]
 fn the_second_layer_s_threshold_is_the_gap_between_clusters() {
     // Two squares, 15 apart.
