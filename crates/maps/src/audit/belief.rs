@@ -242,3 +242,81 @@ impl<'a> Belief<'a> {
         grew
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use tolman_geom::nalgebra::Matrix3;
+    use tolman_geom::{Heading, Point, Pose};
+
+    use super::super::link::links;
+    use super::*;
+    use crate::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph};
+
+    fn edge(from: u32, to: u32, metres: f64, kind: PoseEdgeKind) -> PoseEdge {
+        PoseEdge {
+            from,
+            to,
+            measured: Pose::new(Point::new(metres, 0.0), Heading::EAST),
+            information: Matrix3::identity() * 2500.0,
+            kind,
+        }
+    }
+
+    /// Returns a way straight ahead with `right` closures that agree with it, and then `wrong` ones
+    /// that are two metres off. Each is a run of its own.
+    fn straight(right: u32, wrong: u32) -> PoseGraph {
+        let count = 5 * (right + wrong) + 8;
+        let mut graph = PoseGraph::new();
+        for _ in 0..=count {
+            graph.add_pose(Pose::IDENTITY);
+        }
+        for to in 1..=count {
+            let step = edge(to - 1, to, 1.0, PoseEdgeKind::Odometry);
+            graph.add_edge(step).unwrap();
+        }
+        for number in 0..right + wrong {
+            let metres = if number < right { 7.0 } else { 9.0 };
+            let closure = edge(5 * number, 5 * number + 7, metres, PoseEdgeKind::Closure);
+            graph.add_edge(closure).unwrap();
+        }
+        graph
+    }
+
+    #[test]
+    fn a_group_fits_if_at_most_three_of_ten_do_not() {
+        let config = AuditConfig::standard();
+        for (right, wrong, fits) in [
+            (4, 0, true),
+            (3, 1, true),
+            (2, 2, false),
+            (8, 2, true),
+            (7, 3, true),
+            (6, 4, false),
+            (14, 6, true),
+            (13, 7, false),
+            (0, 1, false),
+        ] {
+            let graph = straight(right, wrong);
+            let chain = Chain::of(&graph, &config).unwrap();
+            let links = links(&graph, &chain, &config);
+            let by_odometry = alloc::vec![ByOdometry::Silent; links.len()];
+            let mut belief = Belief::new(&links, &chain, &config, &by_odometry);
+            let group: Vec<u32> = (0..right + wrong).collect();
+            assert_eq!(belief.fits(&group), fits, "{right} {wrong}");
+        }
+    }
+
+    #[test]
+    fn a_single_closure_lasts_only_if_odometry_supports_it() {
+        let config = AuditConfig::standard();
+        let graph = straight(3, 0);
+        let chain = Chain::of(&graph, &config).unwrap();
+        let links = links(&graph, &chain, &config);
+        let by_odometry = [ByOdometry::Silent, ByOdometry::Supports, ByOdometry::Silent];
+        let belief = Belief::new(&links, &chain, &config, &by_odometry);
+        let lasts = [&[0][..], &[1], &[0, 2], &[0, 1, 2]].map(|group| belief.can_last(group));
+        assert_eq!(lasts, [false, true, true, true]);
+        let broad = [&[0][..], &[0, 1], &[2]].map(|group| belief.is_broad(group));
+        assert_eq!(broad, [false, true, false]);
+    }
+}

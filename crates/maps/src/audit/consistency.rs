@@ -155,3 +155,105 @@ impl Pairs {
         lives
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// Returns pairs of `count` closures.
+    fn pairs(count: usize, agreeing: &[(u32, u32)], conflicting: &[(u32, u32)]) -> Pairs {
+        let both = |all: &[(u32, u32)]| {
+            let mut by_closure = alloc::vec![Vec::new(); count];
+            for (a, b) in all {
+                by_closure[*a as usize].push(*b);
+                by_closure[*b as usize].push(*a);
+            }
+            by_closure
+        };
+        Pairs {
+            agreeing: both(agreeing),
+            conflicting: both(conflicting),
+        }
+    }
+
+    fn any_pairs() -> impl Strategy<Value = Vec<(u32, u32)>> {
+        prop::collection::vec((0..8_u32, 0..8_u32), 0..14).prop_map(|pairs| {
+            let mut pairs: Vec<(u32, u32)> = pairs.into_iter().filter(|(a, b)| a < b).collect();
+            pairs.sort_unstable();
+            pairs.dedup();
+            pairs
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn groups_hold_candidates_without_conflicts_that_hang_together(
+            agreeing in any_pairs(),
+            conflicting in any_pairs(),
+            candidates in prop::collection::vec(prop::bool::weighted(0.8), 8),
+            supported in prop::collection::vec(any::<bool>(), 8),
+        ) {
+            let by = supported.iter().map(|supported| match supported {
+                true => ByOdometry::Supports,
+                false => ByOdometry::Silent,
+            });
+            let by: Vec<ByOdometry> = by.collect();
+            let conflicting: Vec<_> = conflicting.into_iter().filter(|pair| !agreeing.contains(pair)).collect();
+            let groups = pairs(8, &agreeing, &conflicting).groups(&candidates, &by);
+            let of = |one: u32| groups.iter().position(|group| group.contains(&one));
+            for (a, b) in &conflicting {
+                prop_assert!(of(*a).is_none() || of(*b).is_none(), "{groups:?}");
+            }
+            for one in 0..8_u32 {
+                let is_free = !conflicting.iter().any(|(a, b)| *a == one || *b == one);
+                prop_assert!(of(one).is_none() || candidates[one as usize]);
+                prop_assert!(of(one).is_some() || !candidates[one as usize] || !is_free);
+            }
+            for (a, b) in &agreeing {
+                if let (Some(a), Some(b)) = (of(*a), of(*b)) {
+                    prop_assert_eq!(a, b);
+                }
+            }
+            for group in &groups {
+                // From the first all others are reached.
+                let mut reached = Vec::from([group[0]]);
+                for _ in 0..8 {
+                    for (a, b) in &agreeing {
+                        for (from, to) in [(a, b), (b, a)] {
+                            if reached.contains(from) && group.contains(to) && !reached.contains(to) {
+                                reached.push(*to);
+                            }
+                        }
+                    }
+                }
+                prop_assert_eq!(reached.len(), group.len());
+            }
+            let worth = |group: &Vec<u32>| {
+                group.iter().map(|one| if supported[*one as usize] { 6 } else { 1 }).sum::<usize>()
+            };
+            prop_assert!(groups.windows(2).all(|pair| worth(&pair[0]) >= worth(&pair[1])));
+        }
+    }
+
+    #[test]
+    fn the_closure_with_most_conflicts_and_fewest_friends_is_dropped() {
+        let silent = [ByOdometry::Silent; 6];
+        let all = [true; 6];
+        // 0 conflicts with three that agree.
+        let groups = pairs(6, &[(1, 2), (2, 3)], &[(0, 1), (0, 2), (0, 3)]).groups(&all, &silent);
+        assert_eq!(groups, [&[1, 2, 3][..], &[4], &[5]]);
+        // 5 has two friends, which is more than 0 has.
+        let groups = pairs(6, &[(1, 5), (2, 5)], &[(0, 5)]).groups(&all, &silent);
+        assert_eq!(groups, [&[1, 2, 5][..], &[3], &[4]]);
+        // Odometry counts as three friends, and only that of the supported one.
+        let mut by = silent;
+        by[0] = ByOdometry::Supports;
+        let groups = pairs(6, &[(1, 5), (2, 5)], &[(0, 5)]).groups(&all, &by);
+        assert_eq!(groups, [&[0][..], &[1], &[2], &[3], &[4]]);
+        let four = [(1, 5), (2, 5), (3, 5), (4, 5)];
+        let groups = pairs(6, &four, &[(0, 5)]).groups(&all, &by);
+        assert_eq!(groups, [&[1, 2, 3, 4, 5]]);
+    }
+}

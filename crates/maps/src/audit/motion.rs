@@ -206,6 +206,21 @@ mod tests {
         })
     }
 
+    /// The series near 0 and the quotient beyond it agree, and neither divides by zero.
+    #[test]
+    fn the_logarithm_is_smooth_where_its_form_changes() {
+        for angle in [
+            0.0, 1e-12, -1e-6, 0.009_999, -0.009_999, 0.010_001, -0.010_001,
+        ] {
+            let at = Pose::new(Point::new(2.0, -1.0), Heading::from_radians(angle));
+            let log = Motion::from(at).log();
+            // Of small angles θ cot θ is 1 − θ² / 3.
+            let (half, along) = (0.5 * angle, 1.0 - angle * angle / 12.0);
+            let expect = Vector3::new(2.0 * along - half, -along - 2.0 * half, angle);
+            assert!((log - expect).norm() < 1e-9, "{angle}: {log}");
+        }
+    }
+
     proptest! {
         #[test]
         fn motions_are_poses(a in pose(), b in pose()) {
@@ -238,6 +253,21 @@ mod tests {
             prop_assert!((c.chi2(&off) - expect).abs() < 1e-6 * (1.0 + expect));
             // No frame changes how far off a cycle is.
             prop_assert!((moved.chi2(&(adjoint * off)) - expect).abs() < 1e-6 * (1.0 + expect));
+        }
+
+        #[test]
+        fn covariances_add_up_as_matrices_do(a in spread(), b in spread(), by in -3.0..3.0) {
+            let off = |found: Spread, expect: Matrix3<f64>| (full(&found) - expect).abs().max();
+            prop_assert!(off(a.scaled(by), full(&a) * by) < 1e-12);
+            prop_assert!(off(a.plus(&b), full(&a) + full(&b)) < 1e-12);
+            prop_assert!(off(a.minus(&b), full(&a) - full(&b)) < 1e-12);
+            prop_assert!(off(Spread::of(&full(&a)), full(&a)) < 1e-12);
+        }
+
+        #[test]
+        fn the_widest_deviation_is_the_root_of_the_greatest_eigenvalue(c in spread()) {
+            let greatest = full(&c).fixed_view::<2, 2>(0, 0).symmetric_eigenvalues().max();
+            prop_assert!((c.widest() - greatest.sqrt()).abs() < 1e-9);
         }
     }
 }

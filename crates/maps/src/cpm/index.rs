@@ -101,6 +101,43 @@ impl FragmentIndex {
 mod tests {
     use super::*;
 
+    /// Common occurrences by pairing them off one by one, each worth log(1 + fragments / those that
+    /// have the pattern).
+    #[test]
+    fn rare_patterns_weigh_more_and_long_fragments_less() {
+        let of = |patterns: &[u32]| patterns.iter().copied().map(PatternId).collect::<Vec<_>>();
+        let fragments = [
+            of(&[0, 0, 1, 2]),
+            of(&[0, 3]),
+            of(&[4, 4, 4, 0, 1]),
+            of(&[5]),
+        ];
+        let mut index = FragmentIndex::default();
+        for (id, fragment) in (0..).zip(&fragments) {
+            index.insert(FragmentId(id), fragment);
+        }
+        for sequence in [of(&[0, 1]), of(&[4, 4, 0, 0, 0, 7]), of(&[6]), of(&[])] {
+            let found = index.in_common(&sequence);
+            assert_eq!(found.len(), fragments.len());
+            for (fragment, found) in fragments.iter().zip(found) {
+                let mut left = fragment.clone();
+                let mut sum = 0.0;
+                for pattern in &sequence {
+                    if let Some(place) = left.iter().position(|other| other == pattern) {
+                        left.swap_remove(place);
+                        let having = fragments.iter().filter(|other| other.contains(pattern));
+                        sum += f64::ln(1.0 + 4.0 / having.count() as f64);
+                    }
+                }
+                let expected = sum / fragment.len().max(sequence.len()) as f64;
+                assert!(
+                    (found - expected).abs() < 1e-12,
+                    "{fragment:?} {sequence:?}"
+                );
+            }
+        }
+    }
+
     /// Long fragments share some patterns with all. The same, nearly the same or inverted fragment
     /// still comes first.
     #[test]

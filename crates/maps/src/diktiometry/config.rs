@@ -688,3 +688,197 @@ pub enum DiktiometryConfigError {
         field: &'static str,
     },
 }
+
+#[cfg(test)]
+mod tests {
+    use alloc::string::ToString;
+
+    use super::*;
+
+    /// Changes one number of a configuration.
+    type Set = fn(&mut Config, f64);
+
+    /// Name of a number, its change, good values, bad ones, and its range in words.
+    type Field<'a> = (&'a str, Set, [f64; 2], &'a [f64], &'a str);
+
+    /// Each number with values that are in its range, values that are not, and the range in words.
+    #[test]
+    fn a_number_out_of_its_range_is_refused_by_its_name() {
+        let most = f64::MAX;
+        let fields: [Field<'_>; 18] = [
+            (
+                "alike_separation",
+                |c, v| c.alike_separation = v,
+                [2.0, most],
+                &[1.9],
+                ", at least 2",
+            ),
+            (
+                "across",
+                |c, v| c.across = v,
+                [0.0, most],
+                &[-0.1],
+                ", at least 0",
+            ),
+            (
+                "place_radius",
+                |c, v| c.place_radius = v,
+                [0.0, most],
+                &[-0.1],
+                ", at least 0",
+            ),
+            (
+                "shared_scale",
+                |c, v| c.shared_scale = v,
+                [0.0, 0.9],
+                &[-0.1, 1.0],
+                ", at least 0, below 1",
+            ),
+            (
+                "frame_half_width",
+                |c, v| c.frame_half_width = v,
+                [0.0, most],
+                &[-0.1],
+                ", at least 0",
+            ),
+            (
+                "search.width",
+                |c, v| c.search.width = v,
+                [1e-9, most],
+                &[0.0],
+                " above 0",
+            ),
+            (
+                "matching.beta_reach",
+                |c, v| c.matching.beta_reach = v,
+                [0.0, most],
+                &[-0.1],
+                ", at least 0",
+            ),
+            (
+                "tracks.least_confidence",
+                |c, v| c.tracks.least_confidence = v,
+                [0.0, 1.0],
+                &[-0.1, 1.1],
+                ", at least 0, at most 1",
+            ),
+            (
+                "tracks.high",
+                |c, v| c.tracks.high = v,
+                [0.3, 1.0],
+                &[-0.1, 1.1],
+                ", at least 0, at most 1",
+            ),
+            (
+                "tracks.low",
+                |c, v| c.tracks.low = v,
+                [0.0, 0.7],
+                &[-0.1, 0.8],
+                ", at least 0, at most 0.7",
+            ),
+            (
+                "transients.rate",
+                |c, v| c.transients.rate = v,
+                [0.0, 1.0],
+                &[-0.1, 1.1],
+                ", at least 0, at most 1",
+            ),
+            (
+                "transients.fading",
+                |c, v| c.transients.fading = v,
+                [1e-9, 1.0],
+                &[0.0, 1.1],
+                " above 0, at most 1",
+            ),
+            (
+                "restructuring.weight",
+                |c, v| c.restructuring.weight = v,
+                [1e-9, most],
+                &[0.0],
+                " above 0",
+            ),
+            (
+                "restructuring.ratio",
+                |c, v| c.restructuring.ratio = v,
+                [1.0, most],
+                &[0.9],
+                ", at least 1",
+            ),
+            (
+                "restructuring.minority",
+                |c, v| c.restructuring.minority = v,
+                [0.0, 1.0],
+                &[-0.1, 1.1],
+                ", at least 0, at most 1",
+            ),
+            (
+                "restructuring.look_error",
+                |c, v| c.restructuring.look_error = v,
+                [1e-9, 0.999],
+                &[0.0, 1.0],
+                " above 0, below 1",
+            ),
+            (
+                "restructuring.links[0]",
+                |c, v| c.restructuring.links[0] = v,
+                [0.4, 1.0],
+                &[-0.1, 1.1],
+                ", at least 0, at most 1",
+            ),
+            (
+                "restructuring.links[1]",
+                |c, v| c.restructuring.links[1] = v,
+                [0.0, 0.8],
+                &[-0.1, 0.9],
+                ", at least 0, at most 0.8",
+            ),
+        ];
+        for (name, set, good, bad, range) in fields {
+            let config = |value| {
+                let mut config = Config::new(Config::compass_actions(), 2.0);
+                set(&mut config, value);
+                config.check()
+            };
+            for value in good {
+                assert_eq!(config(value), Ok(()), "{name} {value}");
+            }
+            for value in bad.iter().copied().chain([f64::NAN, f64::INFINITY]) {
+                let told = config(value).unwrap_err().to_string();
+                let expect = format!("`{name}` is {value}; give a finite number{range}");
+                assert_eq!(told, expect);
+            }
+        }
+    }
+
+    #[test]
+    fn counts_and_actions_are_checked() {
+        let told = |set: fn(&mut Config)| {
+            let mut config = Config::new(Config::compass_actions(), 2.0);
+            set(&mut config);
+            config.check().unwrap_err().to_string()
+        };
+        assert_eq!(
+            told(|c| c.search.frames = 0),
+            "`search.frames` is 0; give at least 1"
+        );
+        assert_eq!(
+            told(|c| c.tracks.cap = 0),
+            "`tracks.cap` is 0; give at least 1"
+        );
+        let reverse = told(|c| c.actions[1].reverse = Some(Action(4)));
+        assert!(
+            reverse.contains("action 4") && reverse.contains("only 4 actions"),
+            "{reverse}"
+        );
+        let separation = told(|c| c.separation = 0.0);
+        assert!(separation.contains("`separation` is 0"), "{separation}");
+    }
+
+    #[test]
+    fn distances_shrink_by_the_error_that_all_moves_share() {
+        let mut config = Config::new(Config::compass_actions(), 2.0);
+        (config.alike_separation, config.shared_scale) = (3.0, 0.25);
+        assert!((config.least_distance() - 1.5).abs() < 1e-12);
+        assert!((config.least_alike_distance() - 2.25).abs() < 1e-12);
+    }
+}

@@ -71,3 +71,76 @@ fn crossed(from: Point, to: Point, cell: f64, mut visit: impl FnMut(CellNumber))
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use alloc::vec;
+    use alloc::vec::Vec;
+
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// Returns the cells along a way, from points much closer together than cells are wide.
+    fn cells(from: Point, to: Point, cell: f64) -> Vec<CellNumber> {
+        let at = |step: i32| from + (to - from) * (f64::from(step) / 1000.0);
+        let nearest = |at: Point| {
+            let along = |coordinate: f64| (coordinate / cell).round() as i32;
+            (along(at.x), along(at.y))
+        };
+        let mut all: Vec<CellNumber> = (0..=1000).map(|step| nearest(at(step))).collect();
+        all.dedup();
+        all
+    }
+
+    proptest! {
+        #[test]
+        fn what_was_traversed_is_counted_in_its_direction(
+            x in -3.0..3.0, y in -3.0..3.0, east in -2.0..2.0, north in -2.0..2.0,
+            cell in prop::sample::select(vec![0.3, 0.5, 2.0]), times in 1_u32..4,
+        ) {
+            let (from, to) = (Point::new(x, y), Point::new(x + east, y + north));
+            let mut grid = CoverageGrid::default();
+            prop_assert_eq!(grid.traversals(from, to, cell), 0);
+            for _ in 0..times {
+                grid.traverse(from, to, cell);
+            }
+            prop_assert_eq!(grid.traversals(from, to, cell), times);
+            let back = if quadrant(to - from) == quadrant(from - to) { times } else { 0 };
+            prop_assert_eq!(grid.traversals(to, from, cell), back);
+            let passed = cells(from, to, cell);
+            let mut met = Vec::new();
+            crossed(from, to, cell, |number| met.push(number));
+            prop_assert_eq!(met.first(), passed.first());
+            prop_assert_eq!(met.last(), passed.last());
+            // Two samples a cell may miss a corner, but nothing else.
+            // Of corners that the way only touches, either side will do.
+            let beside = [(3e-3, 3e-3), (3e-3, -3e-3), (-3e-3, 3e-3), (-3e-3, -3e-3)];
+            let beside = beside.map(|(x, y)| Vector::new(x, y));
+            let near: Vec<CellNumber> = beside.iter().flat_map(|aside| cells(from + aside, to + aside, cell)).collect();
+            prop_assert!(met.iter().all(|number| near.contains(number)), "{met:?} {passed:?}");
+            for pair in met.windows(2) {
+                let apart = (pair[0].0 - pair[1].0).abs().max((pair[0].1 - pair[1].1).abs());
+                prop_assert_eq!(apart, 1, "{:?}", met);
+            }
+            let beyond = to + (to - from).normalize() * (2.0 * cell);
+            prop_assert_eq!(grid.traversals(from, beyond, cell), 0);
+        }
+    }
+
+    #[test]
+    fn directions_are_four() {
+        for (x, y, expected) in [
+            (1.0, 0.5, 0),
+            (1.0, -1.0, 0),
+            (0.5, 1.0, 1),
+            (-0.5, 1.0, 1),
+            (-1.0, 0.5, 2),
+            (-1.0, -1.0, 2),
+            (0.5, -1.0, 3),
+            (-0.5, -1.0, 3),
+        ] {
+            assert_eq!(quadrant(Vector::new(x, y)), expected, "{x} {y}");
+        }
+    }
+}

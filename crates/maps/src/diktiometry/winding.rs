@@ -228,6 +228,60 @@ mod tests {
         })
     }
 
+    /// A corner has two exits: on to the next one, and back to the one before.
+    #[test]
+    fn a_corner_has_the_exits_of_its_turn_and_no_others() {
+        let config = turning();
+        let turns = Turns::new([Action(0), Action(1)], &config).unwrap();
+        for corner in 0..8 {
+            let ways = [corner, corner + 1].map(|corner| Action(corner as u32 % 4));
+            let seen = |exits: &[Action]| turns.fit(corner, &Exits::Seen(exits.to_vec()));
+            assert!(seen(&ways) && seen(&[ways[1], ways[0]]), "{corner}");
+            let other = Action((ways[1].0 + 1) % 4);
+            assert!(!seen(&ways[..1]) && !seen(&[ways[0], ways[1], other]));
+            assert!(!seen(&[ways[0], other]) && !seen(&[other, ways[1]]) && !seen(&[]));
+            assert!(!turns.fit(corner, &Exits::Unknown));
+        }
+    }
+
+    #[test]
+    fn turns_begin_along_both_axes_and_go_both_ways_round() {
+        let config = turning();
+        let new = |ways: [u32; 2], config: &Config| Turns::new(ways.map(Action), config);
+        let turns = new([0, 1], &config).unwrap();
+        assert_eq!(turns, Turns([0, 1, 2, 3].map(Action)));
+        assert_eq!(turns.back(), Turns([1, 0, 3, 2].map(Action)));
+        assert_eq!(turns.earlier(1), Turns([3, 0, 1, 2].map(Action)));
+        assert_eq!(turns.action(6), Action(2));
+        assert_eq!(new([0, 2], &config), None);
+        let exits = Exits::Seen([3, 0].map(Action).to_vec());
+        let both: Vec<Turns> = Turns::from(&exits, &config).collect();
+        assert_eq!(
+            both,
+            [[3, 0, 1, 2], [0, 3, 2, 1]].map(|all| Turns(all.map(Action)))
+        );
+        assert_eq!(Turns::from(&Exits::Unknown, &config).count(), 0);
+        let three = Exits::Seen([3, 0, 1].map(Action).to_vec());
+        assert_eq!(Turns::from(&three, &config).count(), 0);
+        let mut changing = turning();
+        changing.world = WorldKind::Changing;
+        let mut unused = turning();
+        unused.restructuring.winding_merge = Use::Off;
+        let mut bent = turning();
+        bent.actions = Config::compass_actions();
+        for config in [changing, unused, bent] {
+            assert_eq!(new([0, 1], &config), None);
+        }
+    }
+
+    /// Returns a configuration that concludes from turns.
+    fn turning() -> Config {
+        let mut config = Config::new(Config::corridor_actions(), 1.0);
+        config.restructuring.winding_merge = Use::On;
+        config.world = WorldKind::Static;
+        config
+    }
+
     fn about(lengths: &[i32], error: f64) -> Vec<Interval> {
         let interval =
             |length: &i32| Interval::about(f64::from(*length), error * f64::from(*length));

@@ -164,3 +164,89 @@ pub(super) fn turned_into(motion: Pose, before: &Matrix3<f64>) -> Matrix3<f64> {
     let by_before = Matrix3::from_columns(&[ahead, left, round]);
     by_before * before * by_before.transpose()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of_scores(scores: &[f64]) -> Vec<Hypothesis> {
+        let one = |score: &f64| Hypothesis {
+            pose: Pose::IDENTITY,
+            covariance: Matrix3::identity(),
+            score: *score,
+            looks: 0,
+        };
+        scores.iter().map(one).collect()
+    }
+
+    /// Log-probabilities count up to a constant, however large it is.
+    #[test]
+    fn weights_are_in_the_ratio_of_the_likelihoods() {
+        for best in [0.0, 3.0, -900.0, 900.0] {
+            let found = weights(&of_scores(&[best, best - 1.0, best - 3.0]));
+            let shares = [0.0, -1.0, -3.0].map(f64::exp);
+            let all: f64 = shares.iter().sum();
+            for (found, share) in found.iter().zip(shares) {
+                assert!((found - share / all).abs() < 1e-9, "{best}: {found}");
+            }
+        }
+        assert!(weights(&[]).is_empty());
+    }
+
+    #[test]
+    fn there_are_headings_all_round_at_places_that_are_apart() {
+        let at = |x: f64| Pose::new(Point::new(x, 1.0), Heading::NORTH);
+        let all = everywhere(&[at(0.0), at(0.39), at(0.41), at(0.8)]);
+        assert_eq!(all.len() as u32, 2 * DIRECTIONS);
+        for (index, hypothesis) in all.iter().enumerate() {
+            let turn = TAU * index as f64 / f64::from(DIRECTIONS);
+            assert!(
+                Heading::from_radians(turn)
+                    .turn_to(hypothesis.pose.heading)
+                    .abs()
+                    < 1e-9
+            );
+            let x = if (index as u32) < DIRECTIONS {
+                0.0
+            } else {
+                0.41
+            };
+            assert!((hypothesis.pose.position - Point::new(x, 1.0)).norm() < 1e-12);
+            let variances = [(0, 0), (1, 1), (2, 2)].map(|at| hypothesis.covariance[at]);
+            assert!(
+                variances
+                    .iter()
+                    .all(|variance| (variance - 0.0625).abs() < 1e-12)
+            );
+        }
+    }
+
+    #[test]
+    fn hypotheses_are_one_if_near_and_turned_alike() {
+        let with = |x: f64, y: f64, turn: f64| Hypothesis {
+            pose: Pose::new(Point::new(x, y), Heading::from_radians(turn)),
+            ..of_scores(&[0.0])[0].clone()
+        };
+        let first = with(0.0, 0.0, 0.0);
+        for (x, y, turn, same) in [
+            (0.13, 0.14, 0.19, true),
+            (0.15, -0.14, 0.0, false),
+            (0.0, 0.0, -0.21, false),
+            (-0.19, 0.0, -0.19, true),
+        ] {
+            assert_eq!(with(x, y, turn).is(&first), same, "{x} {y} {turn}");
+        }
+    }
+
+    /// The covariance of a pose, seen from where the robot went.
+    #[test]
+    fn doubt_of_a_pose_turns_with_the_robot() {
+        let motion = Pose::new(Point::new(2.0, -1.0), Heading::NORTH);
+        let before = Matrix3::from_diagonal(&Vector3::new(0.04, 0.01, 0.0025));
+        // A turn about the pose before moves the end of the way aside.
+        let by_before = Matrix3::new(0.0, 1.0, 2.0, -1.0, 0.0, -1.0, 0.0, 0.0, 1.0);
+        let expected = by_before * before * by_before.transpose();
+        let found = turned_into(motion, &before);
+        assert!((found - expected).abs().max() < 1e-6, "{found} {expected}");
+    }
+}

@@ -185,3 +185,64 @@ fn is_outline_sound(outline: &Outline) -> bool {
             arc.mount.is_finite() && numbers.iter().all(|number| number.is_finite())
         })
 }
+
+#[cfg(test)]
+mod tests {
+    use tolman_geom::{Heading, Point, Vector};
+    use tolman_robot::Sounding;
+
+    use super::*;
+
+    fn outline() -> Outline {
+        let point = OutlinePoint {
+            position: Point::new(1.0, 2.0),
+            normal: Some(Vector::x()),
+            deviation: 0.1,
+            colour: Some([0.3, 0.4]),
+        };
+        let arc = Sounding {
+            mount: Pose::new(Point::new(0.1, 0.0), Heading::NORTH),
+            half_width: 0.2,
+            range: 1.0,
+            max_range: 3.0,
+        };
+        Outline {
+            points: [point].to_vec(),
+            arcs: [arc].to_vec(),
+            faced: [point].to_vec(),
+        }
+    }
+
+    #[test]
+    fn an_outline_is_sound_if_all_its_numbers_are() {
+        assert!(is_outline_sound(&outline()));
+        assert!(is_outline_sound(&Outline::default()));
+        let mut bare = outline();
+        (bare.points[0].normal, bare.points[0].colour) = (None, None);
+        assert!(is_outline_sound(&bare));
+        let spoil: [fn(&mut Outline, f64); 10] = [
+            |outline, bad| outline.points[0].position.x = bad,
+            |outline, bad| outline.points[0].position.y = bad,
+            |outline, bad| outline.faced[0].normal = Some(Vector::new(0.0, bad)),
+            |outline, bad| outline.points[0].colour = Some([0.1, bad]),
+            |outline, bad| outline.faced[0].colour = Some([bad, 0.1]),
+            |outline, bad| outline.faced[0].deviation = bad,
+            |outline, bad| outline.arcs[0].mount.position.x = bad,
+            |outline, bad| outline.arcs[0].half_width = bad,
+            |outline, bad| outline.arcs[0].range = bad,
+            |outline, bad| outline.arcs[0].max_range = bad,
+        ];
+        for (number, spoil) in spoil.into_iter().enumerate() {
+            for bad in [f64::NAN, f64::INFINITY] {
+                let mut outline = outline();
+                spoil(&mut outline, bad);
+                assert!(!is_outline_sound(&outline), "{number} {bad}");
+            }
+        }
+        for deviation in [0.0, -0.1] {
+            let mut outline = outline();
+            outline.points[0].deviation = deviation;
+            assert!(!is_outline_sound(&outline));
+        }
+    }
+}

@@ -125,3 +125,37 @@ impl PoseGraph {
         Some(edge.squared_error(self.poses[edge.from as usize], self.poses[edge.to as usize]))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use tolman_geom::nalgebra::{Matrix3, Vector3};
+    use tolman_geom::{Heading, Point};
+
+    use super::*;
+
+    #[test]
+    fn the_error_of_an_edge_is_weighted_by_its_information() {
+        let mut graph = PoseGraph::new();
+        graph.add_pose(Pose::IDENTITY);
+        graph.add_pose(Pose::new(Point::new(1.0, 2.0), Heading::EAST));
+        let edge = PoseEdge {
+            from: 0,
+            to: 1,
+            measured: Pose::new(Point::new(1.5, 1.0), Heading::EAST),
+            information: Matrix3::from_diagonal(&Vector3::new(4.0, 9.0, 1.0)),
+            kind: PoseEdgeKind::Closure,
+        };
+        graph.add_edge(edge).unwrap();
+        // Half a metre and a metre off.
+        let error = graph.squared_error(0).unwrap();
+        assert!((error - (4.0 * 0.25 + 9.0)).abs() < 1e-12, "{error}");
+        assert_eq!(graph.squared_error(1), None);
+        graph.measure_closures_anew();
+        assert!(graph.squared_error(0).unwrap().abs() < 1e-12);
+        // The first pose stays.
+        graph.move_pose(0, graph.poses()[1]);
+        assert_eq!(graph.poses()[0], Pose::IDENTITY);
+        graph.move_pose(1, Pose::IDENTITY);
+        assert_eq!(graph.poses()[1], Pose::IDENTITY);
+    }
+}

@@ -296,3 +296,217 @@ fn follow(
     }
     cells
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::GroundKind;
+    use super::*;
+
+    const CELL: f64 = WallGrid::CELL;
+
+    /// Returns a branch that runs straight from one end to the other.
+    fn branch(ends: [usize; 2], from: GridIndex, to: GridIndex, narrowest: f64) -> Branch {
+        let way = [to[0] - from[0], to[1] - from[1]];
+        let steps = way[0].abs().max(way[1].abs());
+        let cell = |step: i32| [0, 1].map(|axis| from[axis] + step * way[axis].signum());
+        Branch {
+            ends,
+            cells: (0..=steps).map(cell).collect(),
+            narrowest,
+        }
+    }
+
+    /// Returns two junctions `apart` cells apart, each with two dead ends of its own.
+    fn two_junctions(apart: i32, clearance: f64, narrowest: f64) -> Branches {
+        let (left, right) = ([0, 0], [apart, 0]);
+        let tips = [[-40, 40], [-40, -40], [apart + 40, 40], [apart + 40, -40]];
+        let knots = [left, right].into_iter().chain(tips);
+        let knots = knots.map(|at| Knot { at, clearance });
+        let between = branch([0, 1], left, right, narrowest);
+        let spurs = (2..).zip(tips).map(|(number, tip)| {
+            let (root, at) = if number < 4 { (0, left) } else { (1, right) };
+            branch([root, number], at, tip, clearance)
+        });
+        Branches {
+            knots: knots.enumerate().collect(),
+            branches: [between].into_iter().chain(spurs).collect(),
+        }
+    }
+
+    #[test]
+    fn junctions_are_one_place_if_near_or_joined_by_open_ground() {
+        let clearance = 0.5;
+        let near = SAME * (clearance + clearance) / CELL;
+        let less = libm::ceil(near) as i32 - 1;
+        for (apart, narrowest, is_one) in [
+            (less, 0.1, true),
+            (less + 2, 0.1, false),
+            (less + 2, 0.3, false),
+            (less + 2, 0.4, true),
+        ] {
+            let mut graph = two_junctions(apart, clearance, narrowest);
+            graph.merge(0.3);
+            let knots = if is_one { 5 } else { 6 };
+            assert_eq!(graph.knots().len(), knots, "{apart} {narrowest}");
+            assert_eq!(graph.branches().len(), knots - 1, "{apart} {narrowest}");
+            let most = graph.degrees().into_values().max();
+            assert_eq!(most, Some(if is_one { 4 } else { 3 }));
+        }
+    }
+
+    #[test]
+    fn the_roomier_of_two_junctions_is_kept() {
+        for kept in [0, 1] {
+            let mut graph = two_junctions(3, 0.5, 0.1);
+            graph.knots.get_mut(&kept).unwrap().clearance = 0.6;
+            graph.merge(0.3);
+            assert!(graph.knots().contains_key(&kept));
+            assert!(!graph.knots().contains_key(&(1 - kept)));
+        }
+    }
+
+    #[test]
+    fn a_dead_end_is_no_junction() {
+        let mut graph = two_junctions(3, 0.5, 0.1);
+        graph.branches.truncate(3);
+        for tip in [4, 5] {
+            graph.knots.remove(&tip);
+        }
+        graph.merge(0.05);
+        // Knot 1 has only the branch from the junction now.
+        assert_eq!(graph.branches().len(), 3);
+        assert_eq!(graph.knots().len(), 4);
+    }
+
+    /// Returns a knot with `ways` branches to dead ends, and a ring that begins and ends at it.
+    fn ring_with(ways: usize) -> Branches {
+        let tips = [[-40, 0], [0, -40], [-40, -40]];
+        let knots = [[0, 0]].into_iter().chain(tips.into_iter().take(ways));
+        let knots = knots.map(|at| Knot { at, clearance: 0.5 });
+        let mut ring = branch([0, 0], [0, 0], [1, 1], 0.1);
+        ring.cells.extend([[1, 0], [0, 0]]);
+        let spurs = (1..).zip(tips.into_iter().take(ways));
+        let spurs = spurs.map(|(number, tip)| branch([0, number], [0, 0], tip, 0.2));
+        Branches {
+            knots: knots.enumerate().collect(),
+            branches: [ring].into_iter().chain(spurs).collect(),
+        }
+    }
+
+    #[test]
+    fn a_knot_that_only_a_ring_made_dissolves_with_it() {
+        // Of the two branches at it one is left, through where it was.
+        let mut graph = ring_with(2);
+        graph.merge(9.0);
+        assert_eq!(graph.branches().len(), 1);
+        let left = &graph.branches()[0];
+        assert_eq!(left.cells.len(), 81);
+        assert!(left.cells.contains(&[0, 0]));
+        assert_eq!(graph.knots().keys().copied().collect::<Vec<_>>(), [1, 2]);
+        // With one branch it is a dead end, and with three a junction.
+        for ways in [1, 3] {
+            let mut graph = ring_with(ways);
+            graph.merge(9.0);
+            assert_eq!(graph.branches().len(), ways);
+            assert_eq!(graph.knots().len(), ways + 1);
+        }
+    }
+
+    /// Returns the lines of a drawing, in rows from south to north: `.` is ground.
+    fn of_lines(drawing: &[&str]) -> Branches {
+        let end = [drawing[0].len() as i32, drawing.len() as i32];
+        let letters: Vec<u8> = drawing.iter().flat_map(|row| row.bytes()).collect();
+        let grid = WallGrid::of([[0, 0], end], |_| GroundKind::Floor);
+        let ground = letters.iter().map(|letter| *letter == b'.').collect();
+        Branches::of(&Skeleton::of(&grid, ground), 0.2)
+    }
+
+    #[test]
+    fn lines_are_followed_once_and_rings_too() {
+        for (drawing, knots, branches) in [
+            (&["       ", " ..... ", "       "][..], 2, 1),
+            (
+                &[
+                    "       ", " ..... ", " .   . ", " .   . ", " ..... ", "       ",
+                ],
+                1,
+                1,
+            ),
+            (
+                &["  .    ", "  .    ", ".......", "    .  ", "    .  "],
+                6,
+                5,
+            ),
+            (
+                &[
+                    "         ",
+                    " ....    ",
+                    " .  .    ",
+                    " .  .... ",
+                    " ....    ",
+                    "         ",
+                ],
+                2,
+                2,
+            ),
+            (&["   ", " . ", "   "], 1, 0),
+        ] {
+            let graph = of_lines(drawing);
+            assert_eq!(graph.knots().len(), knots, "{drawing:?} {graph:?}");
+            assert_eq!(graph.branches().len(), branches, "{drawing:?} {graph:?}");
+            for branch in graph.branches() {
+                let ends = branch.ends.map(|end| graph.knots()[&end].at);
+                let (first, last) = (branch.cells.first(), branch.cells.last());
+                assert_eq!((first, last), (Some(&ends[0]), Some(&ends[1])));
+            }
+            // A cell of a line lies a cell off the border.
+            let clearance = CELL + 0.2;
+            let knots = graph.knots().values();
+            assert!(
+                knots
+                    .into_iter()
+                    .all(|knot| (knot.clearance - clearance).abs() < 1e-9)
+            );
+            let narrowest = graph.branches().iter().map(|branch| branch.narrowest);
+            assert!(
+                narrowest
+                    .into_iter()
+                    .all(|narrowest| (narrowest - clearance).abs() < 1e-9)
+            );
+        }
+    }
+
+    #[test]
+    fn short_spurs_are_pruned_and_their_knots_dissolve() {
+        // At a clearance of 0.2 m and a cell a spur is shorter than 1.5 times as much.
+        let most = SPUR * (CELL + 0.2) / CELL;
+        let spur = |length: usize| {
+            let mut rows = alloc::vec![" ".repeat(81); length];
+            rows.push(".".repeat(81));
+            for row in &mut rows[..length] {
+                row.replace_range(40..41, ".");
+            }
+            let rows: Vec<&str> = rows.iter().map(alloc::string::String::as_str).collect();
+            let mut graph = of_lines(&rows);
+            let before = graph.branches().len();
+            graph.prune();
+            (before, graph.branches().len(), graph.knots().len())
+        };
+        let less = libm::ceil(most) as usize - 1;
+        assert_eq!(spur(less), (3, 1, 2));
+        assert_eq!(spur(less + 2), (3, 3, 4));
+        // What lies between two knots only is no spur, however short.
+        let mut line = of_lines(&["   ", "...", "   "]);
+        line.prune();
+        assert_eq!(line.branches().len(), 1);
+    }
+
+    #[test]
+    fn the_length_is_that_of_straight_and_diagonal_steps() {
+        let mut line = branch([0, 1], [2, 3], [6, 3], 0.1);
+        assert!((line.length() - 4.0 * CELL).abs() < 1e-12);
+        line.cells.extend([[7, 4], [7, 5]]);
+        let expected = (5.0 + core::f64::consts::SQRT_2) * CELL;
+        assert!((line.length() - expected).abs() < 1e-12);
+    }
+}

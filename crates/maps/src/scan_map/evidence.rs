@@ -180,3 +180,27 @@ impl Run {
 fn likelihood(misfit: f64) -> f64 {
     libm::exp(-0.5 * INDEPENDENT_BEAMS * misfit.max(GOOD))
 }
+
+#[cfg(test)]
+mod tests {
+    use alloc::vec::Vec;
+
+    use proptest::prelude::*;
+
+    use super::Run;
+
+    proptest! {
+        /// From every beam on, as far round as all have it.
+        #[test]
+        fn the_longest_run_goes_round_the_circle(beams in prop::collection::vec(prop::bool::weighted(0.7), 1..12)) {
+            let mut run = Run::default();
+            for has in &beams {
+                run.add(*has);
+            }
+            let twice: Vec<bool> = beams.iter().chain(&beams).copied().collect();
+            let from = |first: usize| twice[first..first + beams.len()].iter().take_while(|has| **has).count();
+            let longest = (0..beams.len()).map(from).max();
+            prop_assert_eq!(Some(run.longest() as usize), longest);
+        }
+    }
+}

@@ -217,3 +217,115 @@ impl PartialEq for Candidate {
 }
 
 impl Eq for Candidate {}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use tolman_geom::Heading;
+
+    use super::super::grid::Stamp;
+    use super::super::outline::SurfacePoint;
+    use super::*;
+
+    fn corner() -> ScanOutline {
+        let ahead = (-10..10).map(|step| Point::new(2.0, 0.1 * f64::from(step)));
+        let left = (0..15).map(|step| Point::new(0.1 * f64::from(step), 1.0));
+        let points = ahead.chain(left).map(|at| SurfacePoint {
+            at,
+            normal: Vector::zeros(),
+            goes_on: false,
+        });
+        ScanOutline {
+            points: points.collect(),
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(24))]
+
+        /// Every pose of the window, one by one.
+        #[test]
+        fn no_pose_of_the_window_fits_better(
+            x in -0.2..0.2, y in -0.2..0.2, angle in -0.06..0.06,
+            reach in 0.05..0.5, prior in 0.0..0.6, prior_turn in 0.0..0.6,
+        ) {
+            let outline = corner();
+            let mut grid = LikelihoodGrid::default();
+            let stamp = Stamp::new(0.05, 0.08);
+            grid.draw(&stamp, [(&outline, Pose::IDENTITY)].into_iter(), 1.0);
+            let expected = Pose::new(Point::new(x, y), Heading::from_radians(angle));
+            let window = Window { reach, turn: 0.08, prior, prior_turn };
+            let cells = (reach / 0.05).ceil() as i32;
+            let score = |turned: &Turned, [column, row]: [i32; 2]| {
+                let values = turned.slots.iter().map(|slot| f64::from(grid.value([slot[0] + column, slot[1] + row])));
+                let fit = values.sum::<f64>() / 255.0 / turned.slots.len() as f64;
+                let off = [column, row].map(|shift| f64::from(shift) * 0.05 / reach.max(0.05));
+                let turn = turned.turn / 0.08;
+                fit - prior * (off[0] * off[0] + off[1] * off[1]) - prior_turn * turn * turn
+            };
+            let all = turned(&grid, &outline, expected, window.turn);
+            let mut most = f64::NEG_INFINITY;
+            for turned in &all {
+                for (row, column) in (-cells..=cells).flat_map(|row| (-cells..=cells).map(move |column| (row, column))) {
+                    most = most.max(score(turned, [column, row]));
+                }
+            }
+            let pyramid = Pyramid::of(&grid, reach);
+            let found = best(&grid, &pyramid, &outline, expected, window).unwrap();
+            let shift = [found.position.x - x, found.position.y - y].map(|off| (off / 0.05).round() as i32);
+            prop_assert!(shift.iter().all(|shift| shift.abs() <= cells));
+            let turn = expected.heading.turn_to(found.heading);
+            let chosen = all.iter().min_by(|a, b| (a.turn - turn).abs().total_cmp(&(b.turn - turn).abs())).unwrap();
+            prop_assert!((chosen.turn - turn).abs() < 1e-9);
+            let reached = score(chosen, shift);
+            prop_assert!((reached - most).abs() < 1e-9, "{reached} of {most}");
+        }
+    }
+
+    #[test]
+    fn headings_are_tried_a_cell_apart_at_a_typical_range() {
+        let outline = corner();
+        let mut grid = LikelihoodGrid::default();
+        grid.draw(
+            &Stamp::new(0.05, 0.08),
+            [(&outline, Pose::IDENTITY)].into_iter(),
+            1.0,
+        );
+        let all = turned(&grid, &outline, Pose::IDENTITY, 0.08);
+        let step = 0.05 / TYPICAL_RANGE;
+        let count = (0.08 / step).ceil() as usize;
+        assert_eq!(all.len(), 2 * count + 1);
+        for (index, one) in all.iter().enumerate() {
+            let turn = (index as f64 - count as f64) * step;
+            assert!((one.turn - turn).abs() < 1e-12);
+            for (slot, point) in one.slots.iter().zip(&outline.points) {
+                let seen = Heading::from_radians(turn).rotate(point.at.coords);
+                assert_eq!(*slot, grid.slot_of(Point::from(seen)));
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_seen_fits_nowhere() {
+        let mut grid = LikelihoodGrid::default();
+        grid.draw(
+            &Stamp::new(0.05, 0.08),
+            [(&corner(), Pose::IDENTITY)].into_iter(),
+            1.0,
+        );
+        let window = Window {
+            reach: 0.2,
+            turn: 0.1,
+            prior: 0.1,
+            prior_turn: 0.1,
+        };
+        let found = best(
+            &grid,
+            &Pyramid::of(&grid, 0.2),
+            &ScanOutline::default(),
+            Pose::IDENTITY,
+            window,
+        );
+        assert!(found.is_none());
+    }
+}

@@ -30,3 +30,38 @@ impl RangeModel {
         self.outliers / reading.max_range + (1.0 - self.outliers) * met
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MODEL: RangeModel = RangeModel {
+        absolute: 0.03,
+        relative: 0.2,
+        outliers: 0.1,
+    };
+
+    #[test]
+    fn a_density_is_normal_about_the_expected_range() {
+        for range in [0.0_f64, 0.1, 0.7] {
+            let sd = (0.03_f64.powi(2) + (0.2 * range).powi(2)).sqrt();
+            let peak = MODEL.density(range, range);
+            assert!((peak - 0.398_942_280_401 / sd).abs() < 1e-6, "{range}");
+            for off in [-2.0, -1.0, 1.0] {
+                let share = MODEL.density(range + off * sd, range) / peak;
+                assert!((share - f64::exp(-0.5 * off * off)).abs() < 1e-9, "{range}");
+            }
+        }
+    }
+
+    #[test]
+    fn outliers_are_spread_over_all_ranges() {
+        let reading = RangeReading {
+            bearing: 0.0,
+            range: 0.3,
+            max_range: 4.0,
+        };
+        assert!((MODEL.mixed(reading, 0.0) - 0.025).abs() < 1e-12);
+        assert!((MODEL.mixed(reading, 2.0) - 1.825).abs() < 1e-12);
+    }
+}

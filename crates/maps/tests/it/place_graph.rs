@@ -2,7 +2,7 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_maps::geom::{Heading, Point, Pose};
+use tolman_maps::geom::{Heading, Point, Pose, Vector};
 use tolman_maps::place_graph::{
     Outline, PlaceGraph, PlaceGraphConfig, PlaceGraphError, SeenThere, foot_line,
 };
@@ -299,6 +299,41 @@ fn a_sonar_faces_what_both_neighbours_hear_farther_off() {
     let faced = Outline::of(&snapshot).faced;
     assert_eq!(faced.len(), 1, "{faced:?}");
     assert!((faced[0].position - Point::new(1.0, 0.0)).norm() < 1e-12);
+    assert_eq!(faced[0].normal, Some(Vector::new(-1.0, 0.0)));
+    assert!((faced[0].deviation - 0.03).abs() < 1e-12);
+    // All round, in any order, each is held to the neighbours on its sides; farther than 3 m none
+    // faces anything.
+    let ranges = [3.5, 3.2, 2.9, 1.2, 1.3, 1.1, 4.0, 3.1, 4.5, 2.0, 2.6, 3.6];
+    let mut soundings: Vec<Sounding> = (0..).zip(ranges).map(sonar).collect();
+    soundings.rotate_left(5);
+    soundings.swap(2, 9);
+    let snapshot = Snapshot {
+        soundings,
+        picture: None,
+    };
+    let faced: Vec<f64> = Outline::of(&snapshot)
+        .faced
+        .iter()
+        .map(|point| point.position.coords.norm())
+        .collect();
+    let count = ranges.len();
+    let expected = (0..count).filter(|index| {
+        let beside = [
+            ranges[(index + 1) % count],
+            ranges[(index + count - 1) % count],
+        ];
+        ranges[*index] <= 3.0 && beside.iter().all(|range| ranges[*index] <= *range)
+    });
+    let mut expected: Vec<f64> = expected.map(|index| ranges[index]).collect();
+    assert_eq!(expected, [1.2, 1.1, 2.0]);
+    let mut found = faced;
+    for list in [&mut expected, &mut found] {
+        list.sort_by(f64::total_cmp);
+    }
+    assert_eq!(found.len(), 3);
+    for (found, expected) in found.iter().zip(&expected) {
+        assert!((found - expected).abs() < 1e-12);
+    }
 }
 
 #[test]
@@ -324,6 +359,81 @@ fn what_stands_on_the_floor_is_where_its_foot_is() {
         let [red, _] = point.colour.unwrap();
         assert!((red - 200.0 / 240.0).abs() < 1e-9, "{point:?}");
     }
+}
+
+/// What the camera sees lies as far from the robot as the camera, and ranges count where they met
+/// something.
+#[test]
+fn an_outline_is_seen_from_where_the_sensors_are() {
+    let (width, height) = (6, 30);
+    let pixel = |row: u32| if row < 22 { [200, 20, 20] } else { [100; 3] };
+    let picture = |x: f64, y: f64| {
+        let mut camera = CAMERA;
+        camera.position = Point::new(x, y);
+        let pixels = (0..width * height).map(|index| pixel(index / width));
+        Picture {
+            width,
+            height,
+            camera,
+            pixels: pixels.collect(),
+        }
+    };
+    let [at, moved] = [(0.0, 0.0), (0.2, -0.1)].map(|(x, y)| foot_line(&picture(x, y)));
+    assert_eq!(at.len(), 6);
+    for (at, moved) in at.iter().zip(&moved) {
+        let off = moved.position - at.position - Vector::new(0.2, -0.1);
+        assert!(off.norm() < 1e-12);
+    }
+    let beam = |range: f64| Sounding {
+        mount: Pose::IDENTITY,
+        half_width: 0.0,
+        max_range: 5.0,
+        range,
+    };
+    for (range, is_met) in [
+        (0.009, false),
+        (0.011, true),
+        (4.99, true),
+        (4.996, false),
+        (5.0, false),
+        (f64::NAN, false),
+    ] {
+        let snapshot = Snapshot {
+            soundings: vec![beam(range)],
+            picture: None,
+        };
+        assert_eq!(
+            Outline::of(&snapshot).points.len(),
+            usize::from(is_met),
+            "{range}"
+        );
+    }
+}
+
+/// A pixel is something else than floor if it differs by more than 0.22 of the brightness, and not
+/// at 0.22 itself: 11 of 50 here.
+#[test]
+fn floor_ends_where_it_is_unlike_by_more_than_the_limit() {
+    let feet = |red: u8| {
+        let (width, height) = (4, 30);
+        let pixel = |row: u32| match row {
+            22.. => [38; 3],
+            21 => [red, 39, 38],
+            _ => [250, 0, 0],
+        };
+        let picture = Picture {
+            width,
+            height,
+            camera: CAMERA,
+            pixels: (0..width * height)
+                .map(|index| pixel(index / width))
+                .collect(),
+        };
+        foot_line(&picture)
+    };
+    let (like, unlike) = (feet(49), feet(51));
+    assert_eq!((like.len(), unlike.len()), (4, 4));
+    assert!(like[0].position.x > unlike[0].position.x);
 }
 
 /// A wanderer's map, and another robot that finds itself on it: every figure is pinned.

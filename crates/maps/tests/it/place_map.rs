@@ -332,6 +332,10 @@ fn maps_survive_files_whatever_form_images_have() {
             let error = error.unwrap_err().to_string();
             assert!(error.contains(expect), "{error}");
         }
+        let mut flat = serde_json::to_value(&map).unwrap();
+        *flat.pointer_mut("/parts/0/scale").unwrap() = 0.into();
+        let error = serde_json::from_value::<PlaceMap>(flat).unwrap_err();
+        assert!(error.to_string().contains("finite and above 0"), "{error}");
     }
 }
 
@@ -358,6 +362,22 @@ fn what_has_no_features_is_refused_by_number() {
     );
     let picture = records[1].snapshot.picture.take();
     assert_eq!(of(&records, &choice), FeatureError::NoPicture { record: 1 });
+    let mut torn = picture.clone().unwrap();
+    torn.pixels.pop();
+    let (width, height, found) = (torn.width, torn.height, torn.pixels.len());
+    records[1].snapshot.picture = Some(torn);
+    let bad = |width, height, found| FeatureError::BadPicture {
+        record: 1,
+        width,
+        height,
+        found,
+    };
+    assert_eq!(of(&records, &choice), bad(width, height, found));
+    let mut empty = picture.clone().unwrap();
+    empty.pixels.clear();
+    (empty.width, empty.height) = (0, 0);
+    records[1].snapshot.picture = Some(empty);
+    assert_eq!(of(&records, &choice), bad(0, 0, 0));
     records[1].snapshot.picture = picture;
     records[2].snapshot.soundings.pop();
     let other = FeatureError::OtherSoundings {

@@ -469,3 +469,51 @@ fn a_way_on_a_chart_has_the_fewest_links() {
     let view = chart.view();
     assert_eq!((view.places.len(), view.links.len()), (6, 10));
 }
+
+#[test]
+fn a_robot_twice_as_wide_has_a_map_twice_as_coarse() {
+    for diameter in [0.2, 0.5] {
+        let config = ScanMapConfig::for_robot(diameter);
+        let lengths = [
+            config.radius,
+            config.spacing_of_places,
+            config.reach_of_visit,
+            config.spacing_of_scans,
+            config.farthest_fit,
+        ];
+        for (length, share) in lengths.iter().zip([0.45, 1.0, 0.9, 0.4, 0.7]) {
+            assert!((length - share * diameter).abs() < 1e-12, "{length}");
+        }
+    }
+}
+
+/// The start is where its landmark is sensed, unless the map begins there; numbers are no place.
+#[test]
+fn a_start_is_noted_where_the_map_does_not_begin() {
+    let noted = |first: Option<Landmark>, last: Landmark| {
+        let mut map = ScanMap::new(ScanMapConfig::for_robot(DIAMETER));
+        for (step, landmark) in [(0.0, first), (0.4, None), (0.4, Some(last))] {
+            let at = Point::new(0.5 + step, 0.475);
+            map.observe(&Advance {
+                moved: Vector::new(step, 0.0),
+                sd: Vector::new(0.02, 0.02),
+                heading: Heading::EAST,
+                scan: &scan_of(4.0, at, Heading::EAST),
+                landmark,
+            });
+        }
+        let before = (map.start().len(), map.goal().len());
+        // Near where it was sensed before it is the same, and farther off another point.
+        map.pass(Vector::new(0.01, 0.0), last);
+        assert_eq!((map.start().len(), map.goal().len()), before);
+        map.pass(Vector::new(0.03, 0.0), last);
+        (map.start().len(), map.goal().len())
+    };
+    let (start, goal) = (Landmark::Start, Landmark::Goal);
+    assert_eq!(noted(None, start), (2, 0));
+    assert_eq!(noted(Some(start), start), (0, 0));
+    assert_eq!(noted(Some(goal), start), (2, 1));
+    assert_eq!(noted(Some(start), goal), (0, 2));
+    assert_eq!(noted(None, Landmark::Numbered(3)), (0, 0));
+    assert_eq!(noted(Some(Landmark::Numbered(3)), start), (2, 0));
+}

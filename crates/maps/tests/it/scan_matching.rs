@@ -1,5 +1,6 @@
 //! Tests that scans give the right pose of a robot whose odometry is wrong.
 
+use alloc::collections::BTreeSet;
 use core::f64::consts::PI;
 
 use proptest::prelude::*;
@@ -101,6 +102,49 @@ proptest! {
             on_floor += usize::from(!near.into_iter().any(|(column, row)| is_wall(column, row)));
         }
         prop_assert_eq!(grid.contradicted(&seen, map_from_laser, farthest, wall), [all, on_floor]);
+    }
+
+    /// Cells are counted again, from points on the beam that lie much closer than cells are wide.
+    #[test]
+    fn a_beam_passes_the_cells_on_its_way_and_ends_in_the_last(
+        x in 0.0..3.0, y in 0.0..3.0, bearing in -3.1..3.1, range in 0.2..2.5,
+    ) {
+        // Some beams leave the grid.
+        let corners = [Point::new(0.0, 0.0), Point::new(3.0, 3.0)];
+        let mut grid = OccupancyGrid::around(corners.into_iter(), 0.1);
+        let ring = Ring { beams: 1, first_bearing: bearing, spacing: 0.1, max_range: 9.0 };
+        let from = pose(x, y, 30.0);
+        grid.add(&Scan { ring, ranges: vec![range] }, from, 8.0);
+        let slot_beside = |along: f64, aside: [f64; 2]| {
+            let at = from.position + from.heading.turned(bearing).unit() * along - grid.origin;
+            let [column, row] = [at.x + aside[0], at.y + aside[1]].map(|along| (along / 0.1).floor());
+            let is_inside = column >= 0.0 && row >= 0.0 && column < grid.columns as f64 && row < grid.rows as f64;
+            is_inside.then(|| row as usize * grid.columns + column as usize)
+        };
+        let slot = |along: f64| slot_beside(along, [0.0; 2]);
+        let along = |step: i32| range * f64::from(step) / 10_000.0;
+        let met: Vec<Option<usize>> = (0..=10_000).map(|step| slot(along(step))).collect();
+        // Those too whose corner the beam only touches.
+        let corners = [[1e-3, 1e-3], [1e-3, -1e-3], [-1e-3, 1e-3], [-1e-3, -1e-3]];
+        let near = (0..=10_000).flat_map(|step| corners.map(|aside| slot_beside(along(step), aside)));
+        let touched: BTreeSet<usize> = near.flatten().collect();
+        let (first, last) = (met[0], slot(range));
+        for (index, share) in grid.occupancy().enumerate() {
+            match share {
+                // A beam may pass through the last cell only to end there.
+                Some(share) if Some(index) == last => prop_assert!(share > 0.99),
+                Some(share) => prop_assert!(share == 0.0 && touched.contains(&index)),
+                None => prop_assert!(Some(index) != last && Some(index) != first),
+            }
+        }
+        // What is left out was cut at a corner for less than half a cell.
+        let told: Vec<bool> = grid.occupancy().map(|share| share.is_some()).collect();
+        let passed: BTreeSet<usize> = met.iter().flatten().copied().collect();
+        for cell in passed {
+            let points = met.iter().filter(|met| **met == Some(cell)).count();
+            let length = range * points as f64 / 10_000.0;
+            prop_assert!(told[cell] || length < 0.051, "{length}");
+        }
     }
 
     #[test]
@@ -323,4 +367,119 @@ fn a_run_by_scans_is_what_it_was() {
     }
     figures.push(format!("{:?}", places.trajectory().last()));
     pinned("scan_matching", &figures);
+}
+
+/// A scan that met nothing has no surfaces, and no surfaces have no axis.
+#[test]
+fn a_map_without_surfaces_has_no_axis() {
+    let mut mapper = ScanMatching::new(ScanMatchingConfig::indoor());
+    assert_eq!(mapper.axis(), None);
+    let world = room();
+    let mut seen = step(&world, Pose::IDENTITY, pose(2.0, 2.0, 0.0));
+    seen.scan.ranges.fill(RING.max_range);
+    mapper.observe(&seen).unwrap();
+    assert_eq!(mapper.axis(), None);
+    assert_eq!(mapper.axis_about(0), None);
+}
+
+/// Long rounds by maps of places, laid over each other.
+#[test]
+fn maps_laid_over_each_other_are_what_they_were() {
+    let world = room();
+    let run = |config: ScanMatchingConfig, first: i32, count: i32, lie: f64| {
+        let at = |index: i32| {
+            let turn = 0.09 * f64::from(first + index);
+            let (sin, cos) = turn.sin_cos();
+            let wide = 2.0 + 0.4 * (2.0 * turn).cos();
+            pose(3.9 + wide * cos, 2.3 + 1.1 * sin, 90.0 + turn.to_degrees())
+        };
+        let mut mapper = ScanMatching::new(config);
+        for index in 0..count {
+            let before = at((index - 1).max(0));
+            let moved = before
+                .between(at(index))
+                .compose(pose(0.005, 0.004 * lie, lie));
+            mapper.observe(&step(&world, moved, at(index))).unwrap();
+        }
+        mapper.finish().unwrap();
+        mapper
+    };
+    let mut figures = Vec::new();
+    let [places, indoor] = [ScanMatchingConfig::places(), ScanMatchingConfig::indoor()];
+    let maps = [
+        run(places.clone(), 0, 160, 0.8),
+        run(indoor, 20, 110, -1.2),
+        run(places, 45, 60, 0.0),
+    ];
+    for map in &maps {
+        figures.push(format!("{} {}", map.keyframes().len(), map.closures()));
+        let trajectory = map.trajectory();
+        let poses = trajectory.iter().step_by(17);
+        figures.extend(poses.map(|pose| format!("{pose:?}")));
+        let edges = map.graph().closures().step_by(5);
+        figures.extend(edges.map(|edge| format!("{} {} {:?}", edge.from, edge.to, edge.measured)));
+        let doubts = (0..map.keyframes().len()).step_by(9);
+        figures.extend(doubts.map(|keyframe| map.doubt(keyframe).to_string()));
+        let overlays = maps.each_ref().map(|other| map.overlay(other));
+        figures.extend(overlays.map(|overlay| format!("{overlay:?}")));
+    }
+    pinned("scan_overlays", &figures);
+}
+
+/// A mapper's view has a place for each keyframe, and each edge both ways.
+#[test]
+fn the_view_of_a_map_is_its_graph() {
+    let world = room();
+    let mut mapper = ScanMatching::new(ScanMatchingConfig::indoor());
+    let (mut at, ahead) = (pose(1.0, 1.0, 0.0), pose(0.4, 0.0, 3.0));
+    mapper.observe(&step(&world, Pose::IDENTITY, at)).unwrap();
+    for _ in 0..9 {
+        at = at.compose(ahead);
+        mapper.observe(&step(&world, ahead, at)).unwrap();
+    }
+    let view = Mapper::map(&mapper);
+    let poses = mapper.graph().poses();
+    assert!(poses.len() > 2);
+    assert_eq!(view.places.len(), poses.len());
+    for ((number, pose), place) in (0..).zip(poses).zip(&view.places) {
+        assert_eq!((place.id, place.position), (number, Some(pose.position)));
+        assert_eq!(place.landmark, None);
+    }
+    let ways: Vec<_> = view.links.iter().map(|link| (link.from, link.to)).collect();
+    let edges = mapper.graph().edges().iter();
+    let both = edges.flat_map(|edge| [(edge.from, edge.to), (edge.to, edge.from)]);
+    assert_eq!(ways, both.collect::<Vec<_>>());
+    let last = mapper.trajectory().last().unwrap().position;
+    let believed = Mapper::belief(&mapper);
+    assert_eq!(believed.len(), 1);
+    assert_eq!(believed[0].at, tolman_robot::Position::Point(last));
+}
+
+/// A grid holds all its points, four cells off its border, and its corner lies on whole cells.
+#[test]
+fn a_grid_is_as_wide_as_its_points_and_a_margin() {
+    for cell in [0.1, 0.25] {
+        let points = [
+            Point::new(-1.03, 2.0),
+            Point::new(0.6, 4.31),
+            Point::new(f64::NAN, 0.0),
+        ];
+        let grid = OccupancyGrid::around(points.into_iter(), cell);
+        for (low, high, origin, count) in [
+            (-1.03, 0.6, grid.origin.x, grid.columns),
+            (2.0, 4.31, grid.origin.y, grid.rows),
+        ] {
+            let whole = origin / cell;
+            assert!((whole - whole.round()).abs() < 1e-9, "{origin}");
+            let (before, beyond) = (low - origin, origin + count as f64 * cell - high);
+            for margin in [before, beyond] {
+                assert!(
+                    margin >= 4.0 * cell - 1e-9 && margin < 5.1 * cell,
+                    "{margin} {cell}"
+                );
+            }
+        }
+        assert_eq!(grid.occupancy().count(), grid.columns * grid.rows);
+        assert!(grid.occupancy().all(|share| share.is_none()));
+    }
 }

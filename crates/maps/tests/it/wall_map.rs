@@ -60,6 +60,12 @@ proptest! {
                 let truth = Knowledge::of_standing(maze.stands(Wall(id)));
                 prop_assert!(known == Knowledge::Unknown || known == truth);
             }
+            for cell in maze.grid().cells() {
+                let sides = Direction::ALL.map(|direction| map.knowledge(cell, direction));
+                let count = |what| sides.iter().filter(|side| **side == what).count();
+                prop_assert_eq!(usize::from(map.uncertainty(cell)), count(Knowledge::Unknown));
+                prop_assert_eq!(map.is_dead_end(cell), count(Knowledge::Wall) >= 3);
+            }
             if closed_cells == ClosedCells::Impossible {
                 for cell in maze.grid().cells().filter(|cell| map.is_dead_end(*cell)) {
                     prop_assert_eq!(map.uncertainty(cell), 0);

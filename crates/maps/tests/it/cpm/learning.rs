@@ -7,7 +7,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::cpm::{
     CpMap, CpMapper, CpMapperConfig, Localizer, LocalizerConfig, MapUpdate, PatternId, Port,
-    PortState, Sign, Turn,
+    PortState, Sighting, Sign, Turn,
 };
 use tolman_maze::{Cell, Direction};
 use tolman_robot::Landmark;
@@ -381,4 +381,67 @@ fn a_run_among_corridors_that_look_alike_is_what_it_was() {
         }
     }
     pinned("cpm", &figures);
+}
+
+/// Mazes of few colours and vague dead reckoning: what each walk does to the map, and what is
+/// doubted of it.
+#[test]
+fn doubts_of_maps_of_mazes_that_look_alike_are_what_they_were() {
+    let mut figures = Vec::new();
+    for seed in 0..10 {
+        let colours = 1 + seed as u32 % 2;
+        let mut world = World::painted(4 + seed as u16 % 3, 0.6, colours, 20 + seed);
+        world.bounds = [1.2, 2.0, 0.6][seed as usize % 3];
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let mut stand = world.start();
+        let sighting = world.sighting(stand.at);
+        let mut mapper = CpMapper::new(CpMapperConfig::robust(), sighting).unwrap();
+        for step in 0..70 {
+            let degree = world.ways(stand.at).len() as u32;
+            let turn = Turn(rng.random_range(u32::from(degree > 1)..degree));
+            let (next, mut walk) = world.walk(stand, turn);
+            // Of some, a walk is a lie now and then.
+            if seed % 3 == 2 && rng.random_range(0..16) == 0 {
+                walk.patterns.reverse();
+                walk.sighting = Sighting::plain(walk.sighting.degree);
+            }
+            let update = mapper.arrive(turn, &walk, &world.dictionary).unwrap();
+            stand = next;
+            if step % 5 == 4 {
+                let [near, far] = [0.3, 0.9].map(|apart| {
+                    let certainty = mapper.certainty(apart).unwrap();
+                    format!("{certainty:.6} {:?}", mapper.doubt(apart))
+                });
+                let map = mapper.map();
+                let open = map.open_ports().count();
+                let count = (map.fragments().len(), map.junctions().len(), open);
+                figures.push(format!("{seed} {update:?} {:?} {count:?}", mapper.at()));
+                figures.push(format!("{near} {far}"));
+            }
+        }
+    }
+    pinned("cpm_doubt", &figures);
+}
+
+/// Of two equal maps each is as probable as the other.
+#[test]
+fn each_map_has_its_share_of_the_probability() {
+    let learned = learned(World::new(4, 0.6, 7), CpMapperConfig::robust(), 150, 0);
+    let world = &learned.world;
+    let maps = [(); 2].map(|()| learned.mapper.map().clone());
+    let usual = LocalizerConfig::usual();
+    let mut localizer = Localizer::new(&maps, &world.dictionary, usual).unwrap();
+    let turn = Turn(u32::from(world.ways(learned.stand.at).len() > 1));
+    let (next, walk) = world.walk(learned.stand, turn);
+    for pattern in &walk.patterns {
+        localizer.observe(*pattern).unwrap();
+    }
+    localizer.end_in_sight(world.landmark(next.at), walk.bearings.as_ref());
+    localizer.arrive(walk.sighting, walk.bearings.as_ref());
+    let found = localizer.maps();
+    assert_eq!(found.len(), 2);
+    assert!(
+        found.iter().all(|share| (share - 0.5).abs() < 1e-9),
+        "{found:?}"
+    );
 }

@@ -4,8 +4,9 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::{Interval, Point, PointBox, PoseBox};
 use tolman_maps::diktiometry::{
-    Action, Config, Counts, Exits, FirstPlace, GeometricMerge, Identity, MergeProof, MoveOutcome,
-    ObservedMove, Observer, Opportunity, PlaceBelief, PlaceId, Restructured, Signature, Use,
+    Action, Apart, Config, Counts, Exits, FirstPlace, GeometricMerge, Identity, MergeProof,
+    MoveOutcome, ObservedMove, Observer, Opportunity, PlaceBelief, PlaceId, Restructured,
+    Signature, Use, WorldKind,
 };
 use tolman_sim::abstract_world::{AbstractWorld, MoveNoise};
 
@@ -302,6 +303,84 @@ fn walks_by_every_rule_are_what_they_were() {
         }
     }
     pinned("diktiometry_rules", &figures);
+}
+
+/// Returns what a robot believes that is put down on a map, and then makes a move.
+fn believed(observer: &Observer, step: &ObservedMove) -> String {
+    let first = FirstPlace {
+        percept: step.percept.clone(),
+        exits: step.exits.clone(),
+    };
+    let mut belief = PlaceBelief::put_down(observer, &first);
+    let mut text = String::new();
+    for action in [0, 1, 3] {
+        let mut step = step.clone();
+        step.action = Action(action);
+        let explained = belief.follow(observer, &step);
+        let places = belief.places();
+        let first = places.iter().take(3);
+        let first: Vec<String> = first
+            .map(|(place, chance)| format!("{} {chance:.6}", place.0))
+            .collect();
+        let telling = belief.telling_action(observer);
+        let count = places.len();
+        text += &format!("{explained:?} {count} {} {telling:?} ", first.join(" "));
+    }
+    text
+}
+
+/// Robots that stop only roughly, whose places look alike nearer than they lie, whose corridors are
+/// straight, and whose wheels share an error.
+#[test]
+fn walks_by_rough_rules_are_what_they_were() {
+    let mut figures = Vec::new();
+    for seed in 0..32_u32 {
+        let mut rng = ChaCha8Rng::seed_from_u64(u64::from(1000 + seed));
+        let mut config = properties::config(rng.random::<u32>() & !3);
+        let bit = |number: u32| seed >> number & 1 == 1;
+        config.place_radius = if bit(0) { 0.12 } else { 0.0 };
+        config.shared_scale = if bit(1) { 0.08 } else { 0.0 };
+        if bit(2) {
+            config.actions = Config::corridor_actions();
+            config.across = 0.1;
+        }
+        config.separation = [1.0, 0.8, 0.7][seed as usize % 3];
+        config.alike_separation = config.separation;
+        if bit(3) {
+            config.alike_separation = 1.6;
+            config.restructuring.winding_merge = Use::On;
+        }
+        if bit(4) {
+            config.apart = Apart::Side;
+            config.world = WorldKind::Static;
+        }
+        config.transients.rate = 0.4;
+        let moves: Vec<ObservedMove> = (0..120)
+            .map(|_| {
+                let mut step = any_move(&mut rng);
+                // Most go a metre, and say so within bounds.
+                if rng.random_range(0..8) > 0 {
+                    let way = [(0.0, 1.0), (1.0, 0.0), (0.0, -1.0), (-1.0, 0.0)];
+                    let (x, y) = way[step.action.0 as usize];
+                    let off = rng.random_range(-0.04..0.04);
+                    let at = PointBox::about(Point::new(x + off, y - off), 0.06).unwrap();
+                    step.odometry.position = at;
+                    step.outcome = MoveOutcome::Arrived;
+                }
+                step
+            })
+            .collect();
+        let (mut observer, moves) = properties::observer_and_moves(&config, moves);
+        for (number, step) in (1..).zip(&moves) {
+            let report = observer.step(step).unwrap();
+            if number % 20 == 0 {
+                let count = report.restructured.len();
+                figures.push(format!("{seed} {count} {}", summed(&observer)));
+                figures.push(believed(&observer, step));
+            }
+        }
+    }
+    pinned("diktiometry_rough", &figures);
 }
 
 /// The certificates of all merges of some walks.
