@@ -1,3 +1,5 @@
+mod dead_ends;
+
 use tolman_maze::{Cell, Direction, Knowledge, Walls};
 
 use crate::TooLarge;

@@ -3,8 +3,6 @@
 #[derive(Clone, Debug)]
 pub(super) struct Buckets<const N: usize> {
     ring: [[Bucket<N>; N]; 2],
-    /// Bit b: bucket b of the ring is not empty.
-    occupied: u64,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -15,61 +13,61 @@ struct Bucket<const N: usize> {
     cells: [u32; N],
 }
 
+impl<const N: usize> Bucket<N> {
+    const EMPTY: Self = Self {
+        rows: 0,
+        cells: [0; N],
+    };
+}
+
 impl<const N: usize> Buckets<N> {
     pub(super) const EMPTY: Self = Self {
-        ring: [[Bucket {
-            rows: 0,
-            cells: [0; N],
-        }; N]; 2],
-        occupied: 0,
+        ring: [[Bucket::EMPTY; N]; 2],
     };
 
     pub(super) fn clear(&mut self) {
-        while self.occupied != 0 {
-            // Popping the last cell of a bucket marks the bucket as empty.
-            self.pop(self.occupied.trailing_zeros() as usize);
+        for bucket in self.ring.as_flattened_mut() {
+            if bucket.rows != 0 {
+                *bucket = Bucket::EMPTY;
+            }
         }
     }
 
-    /// Puts `cell` into `bucket`, a number below the lowest occupied one plus 2 N.
-    #[inline]
+    /// Puts `cell` into `bucket`. A bucket 2 N or more beyond the first is one of those before it.
+    #[inline(always)]
     pub(super) fn insert(&mut self, bucket: usize, cell: usize) {
-        let slot = bucket % (2 * N);
-        let (x, y) = (cell % N, cell / N);
-        if let Some(bucket) = self.ring.as_flattened_mut().get_mut(slot)
+        let (x, y) = (cell % N, cell / N % N);
+        if let Some(bucket) = self.ring.as_flattened_mut().get_mut(bucket % (2 * N))
             && let Some(row) = bucket.cells.get_mut(y)
         {
             *row |= 1 << x;
             bucket.rows |= 1 << y;
-            self.occupied |= 1 << slot;
         }
     }
 
     /// Returns the first bucket from `bucket` on that holds a cell.
-    #[inline]
-    pub(super) fn next(&mut self, bucket: usize) -> Option<usize> {
-        if self.occupied == 0 {
-            return None;
-        }
-        (bucket..bucket + 2 * N).find(|bucket| self.occupied >> (bucket % (2 * N)) & 1 == 1)
+    #[inline(always)]
+    pub(super) fn next(&self, bucket: usize) -> Option<usize> {
+        let ring = self.ring.as_flattened();
+        (bucket..bucket + 2 * N).find(|bucket| {
+            ring.get(bucket % (2 * N))
+                .is_some_and(|bucket| bucket.rows != 0)
+        })
     }
 
     /// Takes a cell out of `bucket`, south-western ones first.
-    #[inline]
+    #[inline(always)]
     pub(super) fn pop(&mut self, bucket: usize) -> Option<usize> {
-        let slot = bucket % (2 * N);
-        let bucket = self.ring.as_flattened_mut().get_mut(slot)?;
+        let bucket = self.ring.as_flattened_mut().get_mut(bucket % (2 * N))?;
         if bucket.rows == 0 {
-            self.occupied &= !(1 << slot);
             return None;
         }
-        let y = bucket.rows.trailing_zeros();
-        let row = bucket.cells.get_mut(y as usize)?;
-        let x = row.trailing_zeros();
+        let y = bucket.rows.trailing_zeros() as usize % N;
+        let row = bucket.cells.get_mut(y)?;
+        let x = row.trailing_zeros() as usize;
         *row &= row.wrapping_sub(1);
-        if *row == 0 {
-            bucket.rows &= bucket.rows - 1;
-        }
-        Some(y as usize * N + x as usize)
+        // No branch, because nothing foresees how many cells are left.
+        bucket.rows &= !(u32::from(*row == 0) << y);
+        Some(y * N + x)
     }
 }

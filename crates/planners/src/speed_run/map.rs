@@ -1,8 +1,10 @@
-use tolman_maze::{Cell, Direction};
+use core::mem;
+
+use tolman_maze::Cell;
 
 use super::buckets::Buckets;
-use super::moves::{for_each_turn, straights};
-use super::state::{Facing, Node, STATES_PER_CELL};
+use super::state::{Node, STATES_PER_CELL, index};
+use super::ways::{line, turns};
 use super::{RunState, SpeedRun, SpeedRunTimes};
 use crate::Passages;
 
@@ -23,15 +25,16 @@ const NEVER: u16 = u16::MAX;
 ///
 /// The search is Dijkstra's, backwards from the goals. The model is the same in both directions, so
 /// it drives the reversed runs from the goals to every state. Its queue has buckets no wider than
-/// the shortest move lasts, so whatever is in the first bucket is final. Source: Denardo and Fox,
-/// *Shortest-route methods: 1. Reaching, pruning, and buckets* (1979).
+/// the shortest move lasts, so whatever is in the first bucket is final. Only states behind a turn
+/// wait there: from all along a straight the search turns at once, which is cheaper than to queue
+/// what is seldom reached sooner. Source: Denardo and Fox, *Shortest-route methods: 1. Reaching,
+/// pruning, and buckets* (1979).
 #[derive(Clone, Debug)]
 pub struct SpeedRunMap<const N: usize> {
     /// Times to the reversed states, ms: the search drives backwards from the goals.
     times: [[[u16; STATES_PER_CELL]; N]; N],
-    /// One bit for each state: whether its best run begins with a straight, which no other straight
-    /// has to continue.
-    by_straight: [[u16; N]; N],
+    /// One bit for each state that a turn reaches and whose moves have not been looked at yet.
+    waiting: [[u16; N]; N],
     buckets: Buckets<N>,
 }
 
@@ -41,14 +44,9 @@ pub enum Extent {
     /// Searches every state.
     Everywhere,
     /// Searches until the duration from this state is certain. So are those of all states nearer to
-    /// a goal; those farther away may be too long, or missing.
+    /// a goal, except in dead ends, where no run to a goal leads. Those farther away may be too
+    /// long, or missing.
     Until(RunState),
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Arrival {
-    Straight,
-    Turn,
 }
 
 impl<const N: usize> Default for SpeedRunMap<N> {
@@ -64,12 +62,12 @@ impl<const N: usize> SpeedRunMap<N> {
         const { assert!(N <= 32, "a row of cells is a word of 32 bits") };
         Self {
             times: [[[NEVER; STATES_PER_CELL]; N]; N],
-            by_straight: [[0; N]; N],
+            waiting: [[0; N]; N],
             buckets: Buckets::EMPTY,
         }
     }
 
-    /// Recomputes the times to `goals`. O(N² · N): every state looks along one straight at most.
+    /// Recomputes the times to `goals`. O(N² · N): each state looks along one straight.
     pub fn search(
         &mut self,
         passages: &Passages<N>,
@@ -77,27 +75,42 @@ impl<const N: usize> SpeedRunMap<N> {
         goals: &[Cell],
         extent: Extent,
     ) {
+        match extent {
+            Extent::Everywhere => self.search_to(passages, times, goals, None),
+            Extent::Until(start) => {
+                let start = Node::new::<N>(start);
+                let ends = goals.iter().copied().chain([start.cell_of::<N>()]);
+                let passages = passages.without_dead_ends(ends);
+                self.search_to(&passages, times, goals, Some(start.reversed::<N>()));
+            }
+        }
+    }
+
+    /// Searches until the time to `last` is certain.
+    fn search_to(
+        &mut self,
+        passages: &Passages<N>,
+        times: &SpeedRunTimes<N>,
+        goals: &[Cell],
+        last: Option<Node>,
+    ) {
         self.times.as_flattened_mut().fill([NEVER; STATES_PER_CELL]);
+        self.waiting.as_flattened_mut().fill(0);
         self.buckets.clear();
         let side = N as u16;
         for goal in goals.iter().filter(|goal| goal.x < side && goal.y < side) {
-            for heading in Direction::ALL {
-                let state = RunState::Straight {
-                    cell: *goal,
-                    heading,
-                };
-                self.arrive(Node::new::<N>(state), 0, Arrival::Turn, times);
+            for heading in 0..4 {
+                let node = Node::straight(index::<N>(*goal), heading);
+                self.reach(node, 0, NEVER, times);
             }
         }
-        let last = match extent {
-            Extent::Everywhere => None,
-            Extent::Until(state) => Some(Node::new::<N>(state).reversed::<N>()),
-        };
         let mut bucket = 0;
         while let Some(next) = self.buckets.next(bucket) {
             bucket = next;
             while let Some(cell) = self.buckets.pop(bucket) {
-                self.settle(cell, bucket, passages.sides(), times);
+                // Nothing that takes longer than a run that was found is part of a faster one.
+                let limit = last.map_or(NEVER, |last| self.time(last));
+                self.settle(cell, limit, passages, times);
             }
             if last.is_some_and(|last| times.bucket(self.time(last)) <= bucket) {
                 break;
@@ -135,67 +148,85 @@ impl<const N: usize> SpeedRunMap<N> {
 
     #[inline(always)]
     fn time(&self, node: Node) -> u16 {
-        let times = self.times.as_flattened().get(node.cell);
-        let time = times.and_then(|times| times.get(node.state));
-        time.copied().unwrap_or(NEVER)
+        let times = self.times.as_flattened().as_flattened();
+        times.get(node.number).copied().unwrap_or(NEVER)
+    }
+
+    /// Drives on from every waiting state of `cell`, if that can make a run faster than `limit`.
+    #[inline(always)]
+    fn settle(
+        &mut self,
+        cell: usize,
+        limit: u16,
+        passages: &Passages<N>,
+        times: &SpeedRunTimes<N>,
+    ) {
+        let waiting = self.waiting.as_flattened_mut().get_mut(cell % (N * N));
+        let mut waiting = waiting.map_or(0, mem::take);
+        while waiting != 0 {
+            let from = Node::numbered(cell, waiting.trailing_zeros() as usize);
+            waiting &= waiting - 1;
+            let time = self.time(from);
+            self.turn(from, time, limit, passages, times);
+            let lengths = times.straights_of(from.facing());
+            for (cells, to, is_open) in line(passages, from) {
+                let Some(best) = self
+                    .times
+                    .as_flattened_mut()
+                    .as_flattened_mut()
+                    .get_mut(to.number)
+                else {
+                    break;
+                };
+                // A state that was reached no later stays ahead along the whole straight. One
+                // branch for both, because nothing foresees where a straight ends.
+                if !is_open | (*best <= time) {
+                    break;
+                }
+                let takes = lengths.get(cells).copied().unwrap_or(NEVER);
+                let arrives = time.saturating_add(takes);
+                if arrives < limit.min(*best) {
+                    *best = arrives;
+                    if let Some(waiting) =
+                        self.waiting.as_flattened_mut().get_mut(to.cell % (N * N))
+                    {
+                        *waiting &= !(1 << to.state);
+                    }
+                    self.turn(to, arrives, limit, passages, times);
+                }
+            }
+        }
+    }
+
+    /// Makes every turn from `from`, reached at `time`. What it reaches sooner than anything did
+    /// before waits for its bucket.
+    #[inline(always)]
+    fn turn(
+        &mut self,
+        from: Node,
+        time: u16,
+        limit: u16,
+        passages: &Passages<N>,
+        times: &SpeedRunTimes<N>,
+    ) {
+        for (slalom, _, to) in turns(passages, from) {
+            let arrives = u32::from(time) + u32::from(times.turn_ms(slalom));
+            self.reach(to, arrives, limit, times);
+        }
     }
 
     #[inline(always)]
-    fn arrive(&mut self, node: Node, time: u16, arrival: Arrival, times: &SpeedRunTimes<N>) {
-        let states = self.times.as_flattened_mut().get_mut(node.cell);
-        let Some(best) = states.and_then(|states| states.get_mut(node.state)) else {
-            return;
-        };
-        if time >= *best {
-            return;
-        }
-        *best = time;
-        if let Some(flags) = self.by_straight.as_flattened_mut().get_mut(node.cell) {
-            let bit = 1 << node.state;
-            match arrival {
-                Arrival::Straight => *flags |= bit,
-                Arrival::Turn => *flags &= !bit,
+    fn reach(&mut self, node: Node, time: u32, limit: u16, times: &SpeedRunTimes<N>) {
+        let states = self.times.as_flattened_mut().as_flattened_mut();
+        if let Some(best) = states.get_mut(node.number)
+            && time < u32::from(limit.min(*best))
+        {
+            let time = time as u16;
+            *best = time;
+            if let Some(waiting) = self.waiting.as_flattened_mut().get_mut(node.cell % (N * N)) {
+                *waiting |= 1 << node.state;
             }
-        }
-        self.buckets.insert(times.bucket(time), node.cell);
-    }
-
-    /// Continues from every state of `cell` whose time lies in `bucket`, the first nonempty one.
-    fn settle(&mut self, cell: usize, bucket: usize, sides: &[u8], times: &SpeedRunTimes<N>) {
-        let (Some(states), Some(by_straight)) = (
-            self.times.as_flattened().get(cell).copied(),
-            self.by_straight.as_flattened().get(cell).copied(),
-        ) else {
-            return;
-        };
-        // No branch for each state, because nothing predicts which states they are.
-        let mut due = (0..).zip(states).fold(0_u16, |due, (state, time)| {
-            let is_due = times.bucket(time) == bucket && time != NEVER;
-            due | u16::from(is_due) << state
-        });
-        while due != 0 {
-            let state = due.trailing_zeros() as usize;
-            due &= due - 1;
-            let time = states.get(state).copied().unwrap_or(NEVER);
-            let node = Node { cell, state };
-            if by_straight >> state & 1 == 0 {
-                let lengths = match node.facing() {
-                    Facing::Straight(_) => times.straights(),
-                    Facing::Diagonal(..) => times.diagonals(),
-                };
-                for (cells, to) in straights::<N>(sides, node) {
-                    // A state that was reached no later stays ahead along the whole straight.
-                    if self.time(to) <= time {
-                        break;
-                    }
-                    let takes = lengths.get(cells).copied().unwrap_or(NEVER);
-                    self.arrive(to, time.saturating_add(takes), Arrival::Straight, times);
-                }
-            }
-            for_each_turn::<N>(sides, node, |slalom, _, to| {
-                let takes = times.slalom().time_ms(slalom);
-                self.arrive(to, time.saturating_add(takes), Arrival::Turn, times);
-            });
+            self.buckets.insert(times.bucket(time), node.cell);
         }
     }
 }

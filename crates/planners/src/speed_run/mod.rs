@@ -58,6 +58,7 @@ mod planner;
 mod run;
 mod state;
 mod times;
+mod ways;
 
 #[cfg(feature = "alloc")]
 pub use certificate::{SpeedRunCertificate, SpeedRunCertificateError, best_possible_ms};
@@ -68,4 +69,5 @@ pub use moves::{RunMove, RunStep, Side, Slalom};
 pub use planner::{Replanning, SpeedRunPlanner};
 pub use run::SpeedRun;
 pub use state::RunState;
+pub(crate) use state::{beside, opposite};
 pub use times::SpeedRunTimes;

@@ -1,6 +1,5 @@
 use tolman_maze::Direction;
 
-use super::state::{Facing, Node, beside, left, opposite, right};
 use super::{RunState, SlalomTimes};
 
 /// One move of a speed run.
@@ -142,98 +141,4 @@ impl SlalomTimes {
             Slalom::Fv90 => self.fv90_ms,
         }
     }
-}
-
-/// Returns whether `sides` (one byte per cell) has `cell` open to `direction`.
-#[inline(always)]
-pub(super) fn is_open(sides: &[u8], cell: usize, direction: usize) -> bool {
-    sides
-        .get(cell)
-        .is_some_and(|open| open >> direction & 1 == 1)
-}
-
-/// Calls `visit` with every turn that can be made from `node`, always in the same order.
-///
-/// A turn onto a diagonal is made only if the diagonal leads out of the cell it enters: otherwise
-/// nothing could follow.
-#[inline(always)]
-pub(super) fn for_each_turn<const N: usize>(
-    sides: &[u8],
-    node: Node,
-    mut visit: impl FnMut(Slalom, Side, Node),
-) {
-    let open = |cell, direction| is_open(sides, cell, direction);
-    match node.facing() {
-        Facing::Straight(ahead) => {
-            if !open(node.cell, ahead) {
-                return;
-            }
-            let back = opposite(ahead);
-            let next = beside::<N>(node.cell, ahead);
-            for (side, to_side) in [(Side::Left, left(ahead)), (Side::Right, right(ahead))] {
-                if !open(next, to_side) {
-                    continue;
-                }
-                let far = beside::<N>(next, to_side);
-                visit(Slalom::F90, side, Node::straight(far, to_side));
-                if open(far, ahead) {
-                    visit(Slalom::F45, side, Node::diagonal(far, to_side, ahead));
-                }
-                if open(far, back) {
-                    let near = beside::<N>(far, back);
-                    visit(Slalom::F180, side, Node::straight(near, back));
-                    if open(near, to_side) {
-                        visit(Slalom::F135, side, Node::diagonal(near, back, to_side));
-                    }
-                }
-            }
-        }
-        Facing::Diagonal(into, out) => {
-            if !open(node.cell, out) {
-                return;
-            }
-            let side = if out == left(into) {
-                Side::Left
-            } else {
-                Side::Right
-            };
-            let next = beside::<N>(node.cell, out);
-            visit(Slalom::F45, side, Node::straight(next, out));
-            let back = opposite(into);
-            if open(next, back) {
-                let far = beside::<N>(next, back);
-                visit(Slalom::F135, side, Node::straight(far, back));
-                if open(far, out) {
-                    visit(Slalom::Fv90, side, Node::diagonal(far, back, out));
-                }
-            }
-        }
-    }
-}
-
-/// Returns every cell count `n` and end of the straights that lead on from `node`, nearest first.
-#[inline(always)]
-pub(super) fn straights<const N: usize>(
-    sides: &[u8],
-    node: Node,
-) -> impl Iterator<Item = (usize, Node)> {
-    let mut cell = node.cell;
-    // Along a diagonal the two directions take turns.
-    let (mut into, mut out) = match node.facing() {
-        Facing::Straight(ahead) => (ahead, ahead),
-        Facing::Diagonal(into, out) => (into, out),
-    };
-    let is_straight = into == out;
-    (1..).map_while(move |n| {
-        if !is_open(sides, cell, out) {
-            return None;
-        }
-        cell = beside::<N>(cell, out);
-        (into, out) = (out, into);
-        if is_straight {
-            return Some((n, Node::straight(cell, out)));
-        }
-        // The edge reached has to lead on.
-        is_open(sides, cell, out).then(|| (n, Node::diagonal(cell, into, out)))
-    })
 }

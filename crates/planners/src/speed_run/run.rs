@@ -1,7 +1,8 @@
 use tolman_maze::{Cell, Direction};
 
-use super::moves::{RunMove, RunStep, for_each_turn, straights};
+use super::moves::{RunMove, RunStep};
 use super::state::{Facing, Node};
+use super::ways::{straights, turns};
 use super::{RunState, SpeedRunMap, SpeedRunTimes};
 use crate::Passages;
 
@@ -32,7 +33,7 @@ impl<'a, const N: usize> SpeedRun<'a, N> {
     /// Returns the state of the mouse before its next move.
     #[must_use]
     pub fn state(&self) -> RunState {
-        self.at.state::<N>()
+        self.at.run_state::<N>()
     }
 
     /// Returns every edge that the run crosses from here on: the cell it leaves and the side it
@@ -63,13 +64,13 @@ impl<const N: usize> Iterator for SpeedRun<'_, N> {
     /// come first, from short to long, then turns. `None` at the goal, and if no move fits because
     /// passages were closed or no goal is in reach.
     fn next(&mut self) -> Option<RunStep> {
-        let (map, times, sides, from) = (self.map, self.times, self.passages.sides(), self.at);
+        let (map, times, passages, from) = (self.map, self.times, self.passages, self.at);
         let left = map.time_from(from);
         if left == 0 || left == u16::MAX {
             return None;
         }
         let fits = |to: Node, takes: u16| map.time_from(to).checked_add(takes) == Some(left);
-        let mut found = straights::<N>(sides, from).find_map(|(length, to)| {
+        let straight = straights(passages, from).find_map(|(length, to)| {
             let cells = length as u16;
             let (takes, run_move) = match from.facing() {
                 Facing::Straight(_) => (times.straight_ms(length), RunMove::Straight { cells }),
@@ -77,17 +78,15 @@ impl<const N: usize> Iterator for SpeedRun<'_, N> {
             };
             fits(to, takes?).then_some((run_move, to))
         });
-        if found.is_none() {
-            for_each_turn::<N>(sides, from, |slalom, side, to| {
-                if found.is_none() && fits(to, times.slalom().time_ms(slalom)) {
-                    found = Some((RunMove::Turn { slalom, side }, to));
-                }
-            });
-        }
-        let (run_move, to) = found?;
+        let turn = || {
+            turns(passages, from).find_map(|(slalom, side, to)| {
+                fits(to, times.turn_ms(slalom)).then_some((RunMove::Turn { slalom, side }, to))
+            })
+        };
+        let (run_move, to) = straight.or_else(turn)?;
         self.at = to;
         Some(RunStep {
-            from: from.state::<N>(),
+            from: from.run_state::<N>(),
             run_move,
         })
     }

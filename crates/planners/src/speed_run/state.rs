@@ -35,7 +35,10 @@ pub(super) const STATES_PER_CELL: usize = 12;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Node {
     pub(super) cell: usize,
+    /// Number within the cell.
     pub(super) state: usize,
+    /// Number in the maze: the states of a cell follow those of the cell before.
+    pub(super) number: usize,
 }
 
 /// Direction of a state within its cell.
@@ -55,25 +58,30 @@ pub(super) const fn right(direction: usize) -> usize {
     (direction + 1) % 4
 }
 
-pub(super) const fn opposite(direction: usize) -> usize {
+pub(crate) const fn opposite(direction: usize) -> usize {
     (direction + 2) % 4
 }
 
 impl Node {
-    pub(super) const fn straight(cell: usize, heading: usize) -> Self {
+    /// Returns the state of `cell` with this number within the cell.
+    #[inline(always)]
+    pub(super) const fn numbered(cell: usize, state: usize) -> Self {
+        let number = cell.wrapping_mul(STATES_PER_CELL).wrapping_add(state);
         Self {
             cell,
-            state: heading,
+            state,
+            number,
         }
+    }
+
+    pub(super) const fn straight(cell: usize, heading: usize) -> Self {
+        Self::numbered(cell, heading)
     }
 
     /// Returns the diagonal state; `out` lies to the left or right of `into`.
     pub(super) const fn diagonal(cell: usize, into: usize, out: usize) -> Self {
         let turns_right = (out + 4 - into) % 4 == 1;
-        Self {
-            cell,
-            state: 4 + 2 * into + turns_right as usize,
-        }
+        Self::numbered(cell, 4 + 2 * into + turns_right as usize)
     }
 
     pub(super) const fn facing(self) -> Facing {
@@ -118,7 +126,7 @@ impl Node {
         Cell::new((self.cell % N) as u16, (self.cell / N) as u16)
     }
 
-    pub(super) fn state<const N: usize>(self) -> RunState {
+    pub(super) fn run_state<const N: usize>(self) -> RunState {
         let cell = self.cell_of::<N>();
         match self.facing() {
             Facing::Straight(heading) => RunState::Straight {
@@ -136,13 +144,9 @@ impl Node {
 
 /// Returns the cell on the other side of an edge that is open. (Off the maze the number is that of
 /// no cell or of a wrong one; no open edge leads there.)
-pub(super) const fn beside<const N: usize>(cell: usize, direction: usize) -> usize {
-    match direction {
-        0 => cell.wrapping_add(N),
-        1 => cell.wrapping_add(1),
-        2 => cell.wrapping_sub(N),
-        _ => cell.wrapping_sub(1),
-    }
+pub(crate) const fn beside<const N: usize>(cell: usize, direction: usize) -> usize {
+    let steps = [N, 1, N.wrapping_neg(), 1_usize.wrapping_neg()];
+    cell.wrapping_add(steps[direction % 4])
 }
 
 pub(super) const fn index<const N: usize>(cell: Cell) -> usize {

@@ -1,7 +1,8 @@
 use core::array;
 
-use super::RunMove;
 use super::config::{SlalomTimes, SpeedProfile, SpeedRunConfig, SpeedRunConfigError};
+use super::state::Facing;
+use super::{RunMove, Slalom};
 
 /// Durations of all moves of a speed run, in whole milliseconds, for mazes of up to `N` × `N`
 /// cells. `N` is 16 for classic mazes and 32 for half-size ones. No cells, and more, do not
@@ -26,6 +27,8 @@ pub struct SpeedRunTimes<const N: usize> {
     /// Times of diagonals of 0 … 2 N − 1 half cell diagonals, ms.
     diagonal: [[u16; N]; 2],
     slalom: SlalomTimes,
+    /// Times of the turns in the order of [`Slalom`].
+    turns: [u16; 5],
     /// 2¹⁶ by the time of the shortest move, rounded up.
     bucket_scale: u32,
 }
@@ -77,6 +80,7 @@ impl<const N: usize> SpeedRunTimes<N> {
             straight: array::from_fn(|cells| straight_ms(cells) as u16),
             diagonal: array::from_fn(|half| array::from_fn(|n| diagonal_ms(half * N + n) as u16)),
             slalom,
+            turns: slalom.all(),
             bucket_scale,
         })
     }
@@ -111,6 +115,16 @@ impl<const N: usize> SpeedRunTimes<N> {
         self.slalom
     }
 
+    /// Returns the durations of the straights or diagonals that lead on from a state, by number of
+    /// cells.
+    #[inline(always)]
+    pub(super) const fn straights_of(&self, facing: Facing) -> &[u16] {
+        match facing {
+            Facing::Straight(_) => self.straights(),
+            Facing::Diagonal(..) => self.diagonals(),
+        }
+    }
+
     /// Returns the durations of straights, by number of cells.
     pub(super) const fn straights(&self) -> &[u16] {
         &self.straight
@@ -119,6 +133,12 @@ impl<const N: usize> SpeedRunTimes<N> {
     /// Returns the durations of diagonals, by number of cells.
     pub(super) const fn diagonals(&self) -> &[u16] {
         self.diagonal.as_flattened()
+    }
+
+    /// Returns the duration of a turn, ms.
+    #[inline(always)]
+    pub(super) fn turn_ms(&self, slalom: Slalom) -> u16 {
+        self.turns.get(slalom as usize).copied().unwrap_or(u16::MAX)
     }
 
     /// Returns the bucket of the search that a time belongs to. A move always leads to a later one,
@@ -133,14 +153,10 @@ const fn bucket(scale: u32, time: u16) -> usize {
 }
 
 impl SlalomTimes {
+    /// Returns the times in the order of [`Slalom`].
     fn all(&self) -> [u16; 5] {
-        [
-            self.f45_ms,
-            self.f90_ms,
-            self.f135_ms,
-            self.f180_ms,
-            self.fv90_ms,
-        ]
+        use Slalom::{F45, F90, F135, F180, Fv90};
+        [F45, F90, F135, F180, Fv90].map(|slalom| self.time_ms(slalom))
     }
 }
 

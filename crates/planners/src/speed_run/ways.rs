@@ -1,0 +1,240 @@
+use core::iter;
+
+use super::moves::{Side, Slalom};
+use super::state::{Facing, Node, STATES_PER_CELL, beside, left, opposite, right};
+use crate::Passages;
+
+/// Number of bits for the ways to one side. Five are used: see [`ends`].
+const SIDE: usize = 8;
+/// Bit 0 of both sides.
+const BOTH: u32 = 1 | 1 << SIDE;
+
+/// Ways out of a state, in whatever cell it is. Nothing foresees which walls there are, so ways are
+/// looked up and masked, not branched on.
+#[derive(Clone, Copy)]
+struct Ways {
+    /// Direction in which the mouse leaves its cell.
+    ahead: u8,
+    back: u8,
+    /// Directions in which it leaves the next cell, for turns to the left and to the right.
+    aside: [u8; 2],
+    /// Distances to the next cell, to those aside of it, and to those that lie behind these.
+    next: i16,
+    far: [i16; 2],
+    near: [i16; 2],
+    /// Bit n: way n is a turn. Those to the right begin with bit [`SIDE`].
+    are_turns: u16,
+    turns: [[Turn; SIDE]; 2],
+    /// Sides and ends of the next two steps of a straight. On a diagonal they take turns.
+    steps: [(u8, Offset); 2],
+    /// 1 on a straight. A diagonal has to lead on where it ends.
+    may_end: u8,
+}
+
+#[derive(Clone, Copy)]
+struct Turn {
+    slalom: Slalom,
+    side: Side,
+    end: Offset,
+}
+
+/// State at some distance from another, in cells and in numbers.
+#[derive(Clone, Copy)]
+struct Offset {
+    cells: i16,
+    numbers: i16,
+    state: u8,
+}
+
+impl Offset {
+    const fn between(from: Node, to: Node) -> Self {
+        Self {
+            cells: to.cell.wrapping_sub(from.cell) as i16,
+            numbers: to.number.wrapping_sub(from.number) as i16,
+            state: to.state as u8,
+        }
+    }
+
+    #[inline(always)]
+    fn from(self, node: Node) -> Node {
+        Node {
+            cell: node.cell.wrapping_add_signed(self.cells.into()),
+            state: self.state.into(),
+            number: node.number.wrapping_add_signed(self.numbers.into()),
+        }
+    }
+}
+
+/// Returns the ends of the ways from cell 0 that turn aside behind the next cell. They end in the
+/// next cell, and in the one aside of that, looking aside or on along a diagonal; and in the cell
+/// behind that one, looking back or aside along a diagonal.
+const fn ends<const N: usize>(ahead: usize, aside: usize) -> [Node; 5] {
+    let back = opposite(ahead);
+    let next = beside::<N>(0, ahead);
+    let far = beside::<N>(next, aside);
+    let near = beside::<N>(far, back);
+    [
+        Node::straight(next, ahead),
+        Node::straight(far, aside),
+        Node::diagonal(far, aside, ahead),
+        Node::straight(near, back),
+        Node::diagonal(near, back, aside),
+    ]
+}
+
+impl Ways {
+    const fn of<const N: usize>(state: usize) -> Self {
+        use Slalom::{F45, F90, F135, F180, Fv90};
+        let from = Node::numbered(0, state);
+        let (ahead, aside, are_turns, slaloms, steps) = match from.facing() {
+            Facing::Straight(ahead) => {
+                let step = (ahead, Node::straight(beside::<N>(0, ahead), ahead), from);
+                let slaloms = [F90, F90, F45, F180, F135];
+                let aside = [left(ahead), right(ahead)];
+                (ahead, aside, 0b11110 * BOTH as u16, slaloms, [step; 2])
+            }
+            Facing::Diagonal(into, out) => {
+                let next = Node::diagonal(beside::<N>(0, out), out, into);
+                let beyond = Node::diagonal(beside::<N>(next.cell, into), into, out);
+                let steps = [(out, next, from), (into, beyond, next)];
+                let to_left = out == left(into);
+                let are_turns = if to_left { 0b00111 } else { 0b00111 << SIDE };
+                let slaloms = [F45, F135, Fv90, Fv90, Fv90];
+                (out, [opposite(into); 2], are_turns, slaloms, steps)
+            }
+        };
+        let [left, right] = aside;
+        let (left_ends, right_ends) = (ends::<N>(ahead, left), ends::<N>(ahead, right));
+        Self {
+            ahead: ahead as u8,
+            back: opposite(ahead) as u8,
+            aside: [left as u8, right as u8],
+            next: Offset::between(from, left_ends[0]).cells,
+            far: [left_ends[1].cell as i16, right_ends[1].cell as i16],
+            near: [left_ends[3].cell as i16, right_ends[3].cell as i16],
+            are_turns,
+            turns: [
+                turns_to(from, left_ends, slaloms, Side::Left),
+                turns_to(from, right_ends, slaloms, Side::Right),
+            ],
+            steps: [step(steps[0]), step(steps[1])],
+            may_end: matches!(from.facing(), Facing::Straight(_)) as u8,
+        }
+    }
+}
+
+const fn step((side, to, from): (usize, Node, Node)) -> (u8, Offset) {
+    (side as u8, Offset::between(from, to))
+}
+
+const fn turns_to(from: Node, ends: [Node; 5], slaloms: [Slalom; 5], side: Side) -> [Turn; SIDE] {
+    let end = Offset::between(from, from);
+    let mut turns = [Turn {
+        slalom: Slalom::F90,
+        side,
+        end,
+    }; SIDE];
+    let mut way = 0;
+    while way < ends.len() {
+        turns[way].slalom = slaloms[way];
+        turns[way].end = Offset::between(from, ends[way]);
+        way += 1;
+    }
+    turns
+}
+
+/// Ways of each state, in mazes whose rows are `N` cells apart. There are more of them than states,
+/// so that four bits are always the number of one.
+struct Table<const N: usize>;
+
+impl<const N: usize> Table<N> {
+    const WAYS: [Ways; 16] = {
+        let mut all = [Ways::of::<N>(0); 16];
+        let mut state = 1;
+        while state < STATES_PER_CELL {
+            all[state] = Ways::of::<N>(state);
+            state += 1;
+        }
+        all
+    };
+
+    #[inline(always)]
+    fn ways(node: Node) -> &'static Ways {
+        let all = const { &Self::WAYS };
+        &all[node.state % 16]
+    }
+}
+
+impl<const N: usize> Passages<N> {
+    /// Returns the open sides of a cell. Beyond the last cell the first follows; no open side leads
+    /// there.
+    #[inline(always)]
+    fn around(&self, cell: usize) -> u32 {
+        let sides = self.sides().get(cell % (N * N));
+        sides.copied().unwrap_or(0).into()
+    }
+}
+
+/// Returns every turn that can be made from `node`, always in the same order.
+///
+/// A turn onto a diagonal is made only if the diagonal leads out of the cell it enters: otherwise
+/// nothing could follow.
+#[inline(always)]
+pub(super) fn turns<const N: usize>(
+    passages: &Passages<N>,
+    node: Node,
+) -> impl Iterator<Item = (Slalom, Side, Node)> {
+    let ways = Table::<N>::ways(node);
+    let at = |cells: i16| passages.around(node.cell.wrapping_add_signed(cells.into()));
+    let both = |[left, right]: [u32; 2]| left | right << SIDE;
+    let [left, right] = ways.aside;
+    let aside = |[to_left, to_right]: [u32; 2]| both([to_left >> left & 1, to_right >> right & 1]);
+
+    let first = (at(0) >> ways.ahead & 1) * BOTH;
+    let second = first & aside([at(ways.next); 2]);
+    let mut open = (first | second << 1) & u32::from(ways.are_turns);
+    if open != 0 {
+        let far = both(ways.far.map(at));
+        let on = second & far >> ways.ahead;
+        let round = second & far >> ways.back;
+        let again = round & aside(ways.near.map(at));
+        open |= (on << 2 | round << 3 | again << 4) & u32::from(ways.are_turns);
+    }
+    iter::from_fn(move || {
+        if open == 0 {
+            return None;
+        }
+        let way = open.trailing_zeros() as usize;
+        open &= open - 1;
+        let turn = ways.turns.as_flattened().get(way % (2 * SIDE))?;
+        Some((turn.slalom, turn.side, turn.end.from(node)))
+    })
+}
+
+/// Returns every cell count `n` and end of the straights that lead on from `node`, nearest first.
+pub(super) fn straights<const N: usize>(
+    passages: &Passages<N>,
+    node: Node,
+) -> impl Iterator<Item = (usize, Node)> {
+    line(passages, node).map_while(|(cells, to, is_open)| is_open.then_some((cells, to)))
+}
+
+/// Returns what [`straights`] does, and goes on behind walls: each item says whether the straight
+/// open that far, if it is up to the one before.
+#[inline(always)]
+pub(super) fn line<const N: usize>(
+    passages: &Passages<N>,
+    node: Node,
+) -> impl Iterator<Item = (usize, Node, bool)> {
+    let ways = Table::<N>::ways(node);
+    let [mut step, mut then] = ways.steps;
+    let mut to = node;
+    (1..).map(move |cells| {
+        let (side, end) = step;
+        let open = passages.around(to.cell) >> side;
+        to = end.from(to);
+        (step, then) = (then, step);
+        let leads_on = passages.around(to.cell) >> step.0 | u32::from(ways.may_end);
+        (cells, to, open & leads_on & 1 == 1)
+    })
+}
