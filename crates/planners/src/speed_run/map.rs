@@ -24,11 +24,11 @@ const NEVER: u16 = u16::MAX;
 /// ```
 ///
 /// The search is Dijkstra's, backwards from the goals. The model is the same in both directions, so
-/// it drives the reversed runs from the goals to every state. Its queue has buckets no wider than
-/// the shortest move lasts, so whatever is in the first bucket is final. Only states behind a turn
-/// wait there: from all along a straight the search turns at once, which is cheaper than to queue
-/// what is seldom reached sooner. Source: Denardo and Fox, *Shortest-route methods: 1. Reaching,
-/// pruning, and buckets* (1979).
+/// it drives the reversed runs from the goals to every state. Its queue has buckets of time; once a
+/// bucket is empty, all times within it are final. Only states behind a turn wait there: from all
+/// along a straight the search turns at once. What is reached sooner later on is driven on from
+/// again, which happens too seldom to be worth a finer order. Source: Denardo and Fox,
+/// *Shortest-route methods: 1. Reaching, pruning, and buckets* (1979).
 #[derive(Clone, Debug)]
 pub struct SpeedRunMap<const N: usize> {
     /// Times to the reversed states, ms: the search drives backwards from the goals.
