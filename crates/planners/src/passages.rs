@@ -83,9 +83,14 @@ impl<const N: usize> Passages<N> {
     }
 
     fn open_side(&mut self, cell: Cell, direction: Direction) {
+        self.mark(cell, 1 << direction.index());
+    }
+
+    /// Sets these bits of a cell.
+    fn mark(&mut self, cell: Cell, bits: u8) {
         let row = self.sides.get_mut(usize::from(cell.y));
         if let Some(sides) = row.and_then(|row| row.get_mut(usize::from(cell.x))) {
-            *sides |= 1 << direction.index();
+            *sides |= bits;
         }
     }
 

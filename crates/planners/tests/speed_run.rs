@@ -102,6 +102,26 @@ fn configs() -> impl Strategy<Value = SpeedRunConfig> {
     })
 }
 
+/// Configurations with slow straights and turns that last anything, as far as a map of `N` × `N`
+/// cells allows.
+fn uneven_configs<const N: usize>() -> impl Strategy<Value = SpeedRunConfig> {
+    let turns = prop::array::uniform5(100_u16..900);
+    let speeds = (60.0..300.0, 1.0..1.5, 1.0..1.5);
+    (speeds, turns).prop_filter_map(
+        "moves that last too differently are refused",
+        |((slow, straight, diagonal), [f45_ms, f90_ms, f135_ms, f180_ms, fv90_ms])| {
+            let mut config = SpeedRunConfig::half_size();
+            config.turn_speed_mm_s = slow;
+            config.straight.top_speed_mm_s = slow * straight;
+            config.diagonal.top_speed_mm_s = slow * diagonal;
+            let slalom = &mut config.slalom;
+            (slalom.f45_ms, slalom.f90_ms, slalom.f135_ms) = (f45_ms, f90_ms, f135_ms);
+            (slalom.f180_ms, slalom.fv90_ms) = (f180_ms, fv90_ms);
+            SpeedRunTimes::<N>::new(&config).is_ok().then_some(config)
+        },
+    )
+}
+
 fn start_of(cell: Cell, heading: Direction) -> RunState {
     RunState::Straight { cell, heading }
 }
@@ -117,6 +137,27 @@ proptest! {
         let mut map = SpeedRunMap::new();
         let hoped = Passages::new(&sketch, Unknown::Open).unwrap();
         let expected = best_possible_ms(&sketch, &config, (start, heading), &goals);
+        for extent in [Extent::Until(from), Extent::Everywhere] {
+            map.search(&hoped, &times, &goals, extent);
+            prop_assert_eq!(map.time_ms(from).map(u32::from), expected);
+            let mut run = map.run(&hoped, &times, from);
+            run.by_ref().for_each(drop);
+            prop_assert_eq!(run.has_arrived(), expected.is_some());
+        }
+    }
+
+    /// Also where a straight and a turn lead on by more buckets than the queue has.
+    #[test]
+    fn moves_that_last_very_differently_are_searched_too(
+        (sketch, start, heading, goals) in sketches(),
+        config in uneven_configs::<12>(),
+    ) {
+        let times = SpeedRunTimes::<12>::new(&config).unwrap();
+        let from = start_of(start, heading);
+        let mut map = SpeedRunMap::new();
+        let hoped = Passages::new(&sketch, Unknown::Open).unwrap();
+        let best = best_possible_ms(&sketch, &config, (start, heading), &goals);
+        let expected = best.filter(|best| *best < u32::from(u16::MAX));
         for extent in [Extent::Until(from), Extent::Everywhere] {
             map.search(&hoped, &times, &goals, extent);
             prop_assert_eq!(map.time_ms(from).map(u32::from), expected);

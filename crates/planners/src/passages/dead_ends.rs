@@ -13,10 +13,7 @@ impl<const N: usize> Passages<N> {
     pub(crate) fn without_dead_ends(&self, kept: impl IntoIterator<Item = Cell>) -> Self {
         let mut open = self.clone();
         for cell in kept {
-            let row = open.sides.get_mut(usize::from(cell.y));
-            if let Some(sides) = row.and_then(|row| row.get_mut(usize::from(cell.x))) {
-                *sides |= KEPT;
-            }
+            open.mark(cell, KEPT);
         }
         let sides = open.sides.as_flattened_mut();
         for first in (0..N * N).step_by(8) {
@@ -69,19 +66,20 @@ mod tests {
     use proptest::prelude::*;
     use tolman_maze::{Direction, Grid, Maze};
 
+    use super::super::open_sides;
     use super::*;
     use crate::Unknown;
 
     /// Closes cells with one open side as long as there is one.
     fn closed_one_by_one(mut maze: Maze, kept: &[Cell]) -> Maze {
-        let is_open = |maze: &Maze, cell, side: &Direction| maze.is_open(cell, *side);
-        while let Some((cell, side)) = maze.grid().cells().find_map(|cell| {
+        let only_way = |maze: &Maze, cell| {
             let mut open = Direction::ALL
                 .into_iter()
-                .filter(|side| is_open(&maze, cell, side));
-            let only = open.next()?;
-            (open.next().is_none() && !kept.contains(&cell)).then_some((cell, only))
-        }) {
+                .filter(|side| maze.is_open(cell, *side));
+            let only = open.next().filter(|_| !kept.contains(&cell))?;
+            open.next().is_none().then_some((cell, only))
+        };
+        while let Some((cell, side)) = maze.grid().cells().find_map(|cell| only_way(&maze, cell)) {
             maze.set_wall(cell, side, true);
         }
         maze
@@ -95,12 +93,7 @@ mod tests {
             kept in prop::collection::vec((0_u16..7, 0_u16..7), 0..4),
         ) {
             let mut maze = Maze::open(Grid::new(width, height));
-            let sides: Vec<_> = maze
-                .grid()
-                .cells()
-                .flat_map(|cell| [(cell, Direction::North), (cell, Direction::East)])
-                .filter(|(cell, side)| maze.grid().neighbour(*cell, *side).is_some())
-                .collect();
+            let sides: Vec<_> = open_sides::<7>(&maze, Unknown::Closed).into_iter().flatten().collect();
             for ((cell, side), stands) in sides.into_iter().zip(walls) {
                 maze.set_wall(cell, side, stands);
             }

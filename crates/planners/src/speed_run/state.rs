@@ -37,7 +37,8 @@ pub(super) struct Node {
     pub(super) cell: usize,
     /// Number within the cell.
     pub(super) state: usize,
-    /// Number in the maze: the states of a cell follow those of the cell before.
+    /// Number in the maze: the states of a cell follow those of the cell before. It could be
+    /// computed, and is kept because the search asks for it at every turn.
     pub(super) number: usize,
 }
 

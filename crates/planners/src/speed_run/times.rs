@@ -27,7 +27,8 @@ pub struct SpeedRunTimes<const N: usize> {
     /// Times of diagonals of 0 … 2 N − 1 half cell diagonals, ms.
     diagonal: [[u16; N]; 2],
     slalom: SlalomTimes,
-    /// Times of the turns in the order of [`Slalom`].
+    /// The same times in the order of [`Slalom`], for the search, which looks them up without a
+    /// branch.
     turns: [u16; 5],
     /// 2¹⁶ by twice the time of the shortest move.
     bucket_scale: u32,
@@ -106,7 +107,7 @@ impl<const N: usize> SpeedRunTimes<N> {
         match run_move {
             RunMove::Straight { cells } => self.straight_ms(cells.into()),
             RunMove::Diagonal { cells } => self.diagonal_ms(cells.into()),
-            RunMove::Turn { slalom, .. } => Some(self.slalom.time_ms(slalom)),
+            RunMove::Turn { slalom, .. } => Some(self.turn_ms(slalom)),
         }
     }
 

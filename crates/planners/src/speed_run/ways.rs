@@ -109,7 +109,7 @@ impl Ways {
             ahead: ahead as u8,
             back: opposite(ahead) as u8,
             aside: [left as u8, right as u8],
-            next: Offset::between(from, left_ends[0]).cells,
+            next: left_ends[0].cell as i16,
             far: [left_ends[1].cell as i16, right_ends[1].cell as i16],
             near: [left_ends[3].cell as i16, right_ends[3].cell as i16],
             are_turns,
@@ -220,7 +220,7 @@ pub(super) fn straights<const N: usize>(
 }
 
 /// Returns what [`straights`] does, and goes on behind walls: each item says whether the straight
-/// open that far, if it is up to the one before.
+/// is open that far, if it is up to the one before.
 #[inline(always)]
 pub(super) fn line<const N: usize>(
     passages: &Passages<N>,
