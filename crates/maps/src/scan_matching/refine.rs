@@ -169,16 +169,16 @@ mod tests {
         Pose::new(Point::new(0.05, -0.03), Heading::from_radians(0.02))
     }
 
+    /// Refines the start on the corner, with a prior of this weight.
+    fn at_rest(weight: f64) -> Refined {
+        let outline = corner();
+        let prior = prior(start(), weight);
+        refine(&drawn(&outline), &outline, start(), &prior, KERNEL)
+    }
+
     #[test]
     fn the_pose_comes_to_rest_where_the_outline_was_drawn() {
-        let outline = corner();
-        let found = refine(
-            &drawn(&outline),
-            &outline,
-            start(),
-            &prior(start(), 1e-3),
-            KERNEL,
-        );
+        let found = at_rest(1e-3);
         let off = difference(Pose::IDENTITY, found.pose);
         assert!(off.norm() < 5e-3, "{off}");
         assert!(found.score > 0.97 && found.score <= 1.0, "{}", found.score);
@@ -186,14 +186,7 @@ mod tests {
 
     #[test]
     fn a_sure_prior_is_kept() {
-        let outline = corner();
-        let found = refine(
-            &drawn(&outline),
-            &outline,
-            start(),
-            &prior(start(), 1e9),
-            KERNEL,
-        );
+        let found = at_rest(1e9);
         assert!(difference(start(), found.pose).norm() < 1e-5);
     }
 

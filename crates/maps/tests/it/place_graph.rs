@@ -336,18 +336,21 @@ fn a_sonar_faces_what_both_neighbours_hear_farther_off() {
     }
 }
 
+/// Returns a picture whose pixels are these, by number.
+fn picture([width, height]: [u32; 2], pixel: impl FnMut(u32) -> [u8; 3]) -> Picture {
+    Picture {
+        width,
+        height,
+        camera: CAMERA,
+        pixels: (0..width * height).map(pixel).collect(),
+    }
+}
+
 #[test]
 fn what_stands_on_the_floor_is_where_its_foot_is() {
     let (width, height, foot) = (40, 30, 22);
     let pixel = |row: u32| if row < foot { [200, 20, 20] } else { [100; 3] };
-    let picture = Picture {
-        width,
-        height,
-        camera: CAMERA,
-        pixels: (0..width * height)
-            .map(|index| pixel(index / width))
-            .collect(),
-    };
+    let picture = picture([width, height], |index| pixel(index / width));
     let points = foot_line(&picture);
     assert_eq!(points.len(), 40);
     let down = (f64::from(foot) - 15.0) / 15.0 * (0.5 * CAMERA.field_down).tan();
@@ -421,14 +424,7 @@ fn floor_ends_where_it_is_unlike_by_more_than_the_limit() {
             21 => [red, 39, 38],
             _ => [250, 0, 0],
         };
-        let picture = Picture {
-            width,
-            height,
-            camera: CAMERA,
-            pixels: (0..width * height)
-                .map(|index| pixel(index / width))
-                .collect(),
-        };
+        let picture = picture([width, height], |index| pixel(index / width));
         foot_line(&picture)
     };
     let (like, unlike) = (feet(49), feet(51));
@@ -517,12 +513,7 @@ fn the_feet_of_things_are_what_they_were() {
                 _ => [floor; 3],
             }
         };
-        let picture = Picture {
-            width,
-            height,
-            camera: CAMERA,
-            pixels: (0..width * height).map(pixel).collect(),
-        };
+        let picture = picture([width, height], pixel);
         let feet = foot_line(&picture);
         figures.push(format!("{width} {height} {}", feet.len()));
         figures.extend(feet.iter().map(|foot| format!("{foot:?}")));

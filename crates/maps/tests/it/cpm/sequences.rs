@@ -133,6 +133,33 @@ fn two_fragments_are_a_path_and_one_is_none() {
     assert_eq!(nothing, Err(RecallError::NothingLearned));
 }
 
+/// Walks a path without junctions, learns it as this environment, and returns its chain.
+fn learn_path(
+    environments: &mut Environments,
+    environment: u32,
+    walks: &[Vec<PatternId>],
+    dictionary: &Dictionary,
+) -> Vec<End> {
+    let start = Sighting::plain(1);
+    let mut mapper = CpMapper::new(CpMapperConfig::offline(), start).unwrap();
+    for (number, patterns) in walks.iter().enumerate() {
+        let walk = Traversal {
+            patterns: patterns.clone(),
+            motion: None,
+            sighting: Sighting::plain(3),
+            bearings: None,
+        };
+        let turn = Turn(u32::from(number > 0));
+        mapper.arrive(turn, &walk, dictionary).unwrap();
+    }
+    let fragments = mapper.map().fragments();
+    let ends: Vec<_> = fragments.map(|(id, _)| id.end(Sign::Minus)).collect();
+    environments
+        .learn(environment, mapper.map(), &ends, dictionary)
+        .unwrap();
+    ends
+}
+
 /// A fragment that looks like the second of one path begins another, and a third path returns to
 /// where it began.
 #[test]
@@ -143,23 +170,11 @@ fn a_chain_ends_where_it_would_leave_its_path_or_repeat_itself() {
     let paths: [&[u32]; 3] = [&[0, 1], &[1, 2], &[4, 5, 4]];
     let mut learned = Vec::new();
     for (environment, path) in (0..).zip(paths) {
-        let start = Sighting::plain(1);
-        let mut mapper = CpMapper::new(CpMapperConfig::offline(), start).unwrap();
-        for (number, pattern) in path.iter().enumerate() {
-            let walk = Traversal {
-                patterns: vec![PatternId(*pattern); 3],
-                motion: None,
-                sighting: Sighting::plain(3),
-                bearings: None,
-            };
-            let turn = Turn(u32::from(number > 0));
-            mapper.arrive(turn, &walk, &dictionary).unwrap();
-        }
-        let fragments = mapper.map().fragments();
-        let ends: Vec<_> = fragments.map(|(id, _)| id.end(Sign::Minus)).collect();
-        environments
-            .learn(environment, mapper.map(), &ends, &dictionary)
-            .unwrap();
+        let walks: Vec<_> = path
+            .iter()
+            .map(|pattern| vec![PatternId(*pattern); 3])
+            .collect();
+        let ends = learn_path(&mut environments, environment, &walks, &dictionary);
         learned.push(ends);
     }
     let chain = |pattern: u32| {
@@ -187,23 +202,8 @@ fn a_sequence_recalls_the_rest_of_its_own_path() {
     ];
     let mut learned = Vec::new();
     for (environment, path) in (0..).zip(paths) {
-        let start = Sighting::plain(1);
-        let mut mapper = CpMapper::new(CpMapperConfig::offline(), start).unwrap();
-        for (turn, patterns) in path.iter().enumerate() {
-            let walk = Traversal {
-                patterns: patterns.map(PatternId).to_vec(),
-                motion: None,
-                sighting: Sighting::plain(3),
-                bearings: None,
-            };
-            let turn = Turn(u32::from(turn > 0));
-            mapper.arrive(turn, &walk, &dictionary).unwrap();
-        }
-        let fragments = mapper.map().fragments();
-        let ends: Vec<_> = fragments.map(|(id, _)| id.end(Sign::Minus)).collect();
-        environments
-            .learn(environment, mapper.map(), &ends, &dictionary)
-            .unwrap();
+        let walks = path.map(|patterns| patterns.map(PatternId).to_vec());
+        let ends = learn_path(&mut environments, environment, &walks, &dictionary);
         learned.push(ends);
     }
     for (environment, (path, ends)) in (0..).zip(paths.iter().zip(&learned)) {
