@@ -152,76 +152,37 @@ impl<const N: usize> PoseSet<N> {
 
     /// Returns the first direction of a drive that tells poses apart, or `None` if the known walls
     /// tell no pose from another. The drive leads, from one pose of the set and on known open ways,
-    /// to the next place that looks different for another pose. O(poses · N²), and as much again
-    /// for each pose that cannot be told from any other.
+    /// to the next place that looks different for another pose. O(N² + poses · cells on known open
+    /// ways), and as much again for each pose on such ways that cannot be told from any other.
     #[must_use]
     pub fn next_drive(&mut self, walls: &impl Walls) -> Option<Direction> {
         let guess = self
             .guess
             .filter(|(cell, heading)| self.contains(*cell, *heading));
         let (guess, side) = guess.into_iter().chain(self.iter()).find_map(|guess| {
-            let others = self.iter().filter(|other| *other != guess);
-            let ways = others.filter_map(|other| self.tell_apart(walls, guess, other));
-            let nearest = ways.min_by_key(|way| way.cells)?;
-            Some((guess, nearest.side))
+            let side = self.nearest_difference(walls, guess)?;
+            Some((guess, side))
         })?;
         self.guess = Some(guess);
         Some(side)
     }
 
-    /// Searches breadth-first, in the frame of the first pose, for a cell with a wall that the
-    /// other pose does not have. Returns the way there.
-    fn tell_apart(
-        &self,
-        walls: &impl Walls,
-        first: (Cell, Direction),
-        other: (Cell, Direction),
-    ) -> Option<Way> {
-        let mut ways = [[None::<Way>; N]; N];
-        let mut queue = [[0_u16; N]; N];
-        let (ways, queue) = (ways.as_flattened_mut(), queue.as_flattened_mut());
-        let index = |cell: Cell| usize::from(cell.y) * N + usize::from(cell.x);
-        let start = index(first.0);
-        *queue.first_mut()? = start as u16;
-        let mut end = 1;
-        for at in 0..N * N {
-            if at == end {
-                break;
-            }
-            let here = usize::from(*queue.get(at)?);
-            let cell = Cell::new((here % N) as u16, (here / N) as u16);
-            let twin = twin(cell, first, other);
-            let way = ways.get(here).copied()?;
-            for side in Direction::ALL {
-                let direction = first.1.turned(side);
-                let ours = walls.knowledge(cell, direction);
-                let theirs = twin.map_or(Knowledge::Unknown, |twin| {
-                    walls.knowledge(twin, other.1.turned(side))
-                });
-                let differ = ours.is_known() && theirs.is_known() && ours != theirs;
-                // The mouse has already seen everything around itself.
-                if differ && way.is_some() {
-                    return way;
-                }
-                if ours != Knowledge::Open {
-                    continue;
-                }
-                let Some(next) = self.grid.neighbour(cell, direction).map(index) else {
-                    continue;
-                };
-                if let Some(slot @ None) = ways.get_mut(next)
-                    && next != start
-                {
-                    *slot = Some(Way {
-                        cells: way.map_or(0, |way| way.cells) + 1,
-                        side: way.map_or(side, |way| way.side),
-                    });
-                    *queue.get_mut(end)? = next as u16;
-                    end += 1;
-                }
-            }
+    /// Returns the side by which a mouse at this pose leaves for the nearest place with a wall that
+    /// some other pose does not have, or the other way round.
+    fn nearest_difference(&self, walls: &impl Walls, pose: (Cell, Direction)) -> Option<Direction> {
+        let is_open = |side| walls.knowledge(pose.0, side) == Knowledge::Open;
+        if !Direction::ALL.into_iter().any(is_open) {
+            return None;
         }
-        None
+        let reached = Reached::<N>::from(walls, pose);
+        let mut nearest: Option<Way> = None;
+        for other in self.iter().filter(|other| *other != pose) {
+            let nearer = |way: &Way| nearest.is_none_or(|nearest| way.cells < nearest.cells);
+            let mut ways = reached.ways().take_while(|(_, way)| nearer(way));
+            let telling = ways.find(|(cell, _)| differ(walls, *cell, pose, other));
+            nearest = telling.map(|(_, way)| way).or(nearest);
+        }
+        nearest.map(|way| way.side)
     }
 
     /// Returns the poses that are left: south-western cells first, and northern headings.
@@ -248,6 +209,90 @@ struct Way {
     cells: u16,
     /// Direction of the way's first cell, in the mouse's frame.
     side: Direction,
+}
+
+/// Cells that a pose reaches by known open ways, nearest first.
+struct Reached<const N: usize> {
+    ways: [[Option<Way>; N]; N],
+    cells: [[u16; N]; N],
+    count: usize,
+}
+
+impl<const N: usize> Reached<N> {
+    fn from(walls: &impl Walls, (start, heading): (Cell, Direction)) -> Self {
+        let mut reached = Self {
+            ways: [[None; N]; N],
+            cells: [[0; N]; N],
+            count: 0,
+        };
+        reached.push(start);
+        let mut at = 0;
+        while let Some(cell) = reached.cell(at) {
+            let way = reached.way(cell);
+            for side in Direction::ALL {
+                let direction = heading.turned(side);
+                let is_open = walls.knowledge(cell, direction) == Knowledge::Open;
+                let next = walls.grid().neighbour(cell, direction);
+                let Some(next) = next.filter(|next| is_open && *next != start) else {
+                    continue;
+                };
+                let row = reached.ways.get_mut(usize::from(next.y));
+                let slot = row.and_then(|row| row.get_mut(usize::from(next.x)));
+                if let Some(slot @ None) = slot {
+                    *slot = Some(Way {
+                        cells: way.map_or(0, |way| way.cells) + 1,
+                        side: way.map_or(side, |way| way.side),
+                    });
+                    reached.push(next);
+                }
+            }
+            at += 1;
+        }
+        reached
+    }
+
+    fn push(&mut self, cell: Cell) {
+        if let Some(slot) = self.cells.as_flattened_mut().get_mut(self.count) {
+            *slot = cell.y << 8 | cell.x;
+            self.count += 1;
+        }
+    }
+
+    fn cell(&self, at: usize) -> Option<Cell> {
+        let cells = self.cells.as_flattened().get(..self.count)?;
+        cells.get(at).map(|cell| Cell::new(cell & 0xff, cell >> 8))
+    }
+
+    fn way(&self, cell: Cell) -> Option<Way> {
+        let row = self.ways.get(usize::from(cell.y))?;
+        *row.get(usize::from(cell.x))?
+    }
+
+    /// Returns all cells but the first one, with the ways there.
+    fn ways(&self) -> impl Iterator<Item = (Cell, Way)> {
+        (1..self.count).filter_map(|at| {
+            let cell = self.cell(at)?;
+            Some((cell, self.way(cell)?))
+        })
+    }
+}
+
+/// Returns whether a cell has a side that is known to be other than that of its twin, when a mouse
+/// drives the same way from the pose `other` as from `first` to the cell.
+fn differ(
+    walls: &impl Walls,
+    cell: Cell,
+    first: (Cell, Direction),
+    other: (Cell, Direction),
+) -> bool {
+    let Some(twin) = twin(cell, first, other) else {
+        return false;
+    };
+    Direction::ALL.into_iter().any(|side| {
+        let ours = walls.knowledge(cell, first.1.turned(side));
+        let theirs = walls.knowledge(twin, other.1.turned(side));
+        ours.is_known() && theirs.is_known() && ours != theirs
+    })
 }
 
 /// Returns the cell of a mouse that began at `other`, when one that began at `first` and drove the

@@ -66,6 +66,11 @@ impl<'a, const N: usize> SpeedRunExplorer<'a, N> {
         }
     }
 
+    /// Forgets that the mouse has been at a goal, because it was elsewhere.
+    pub const fn restart(&mut self) {
+        self.stage = ExploreStage::Search;
+    }
+
     /// Returns the decision in the cell `at`, looking to `heading`, once its walls are in `walls`.
     /// O(N²), plus a search if no best run hoped for so far can be driven any more.
     ///
