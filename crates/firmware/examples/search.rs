@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn core::error::Error>> {
     let mut maze = braided.generate(&mut rng)?;
     maze.set_goals(maze.grid().middle().collect());
     let times = SpeedRunTimes::new(&SpeedRunConfig::classic())?;
-    let mut mouse = Mouse::new(&times, maze.goals())?;
+    let mut mouse = Mouse::new(&times, maze.goals());
     let (cell, heading) = (Cell::new(0, 0), Direction::North);
     let mut body = Body {
         maze: &maze,

@@ -1,18 +1,18 @@
 use tolman_maps::wall_map::{CellRay, ClosedCells, TooLarge, WallMap};
-use tolman_maze::{Cell, Direction, Grid, Walls};
+use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
 use tolman_planners::speed_run::{Decision, RunStep, SpeedRunExplorer, SpeedRunTimes};
 use tolman_planners::{Passages, PoseKnowledge, PoseSet, Unknown};
 
 /// Number of columns and of rows of the maze, as in the classic competition.
 pub const MAZE: usize = 16;
 
-/// Maximum number of walls that can be forgotten after a crash.
-const LOG: usize = 32;
+/// Maximum number of walls that a lost mouse can forget.
+const LOG: usize = 16;
 
-/// Number of observations that are forgotten after a crash.
+/// Number of last observations that a lost mouse forgets, because it may have been lost already.
 const DOUBTFUL: usize = 4;
 
-/// Number of cells that a lost mouse drives before it asks for help.
+/// Number of cells that a lost mouse drives before it begins a new map.
 const PATIENCE: u8 = 60;
 
 /// Cell and direction in which the mouse starts.
@@ -29,7 +29,7 @@ const START: (Cell, Direction) = (Cell::new(0, 0), Direction::North);
 /// // Goals are told, walls are not.
 /// let times = SpeedRunTimes::new(&SpeedRunConfig::classic()).unwrap();
 /// let goals = [Cell::new(1, 1)];
-/// let mut mouse = Mouse::new(&times, &goals)?;
+/// let mut mouse = Mouse::new(&times, &goals);
 /// let open = |ahead, right| Sides { left: false, ahead, right };
 /// assert_eq!(mouse.arrive(open(true, false))?, Command::Drive(Direction::North));
 /// assert_eq!(mouse.arrive(open(false, true))?, Command::Drive(Direction::East));
@@ -37,27 +37,34 @@ const START: (Cell, Direction) = (Cell::new(0, 0), Direction::North);
 /// ```
 #[derive(Clone, Debug)]
 pub struct Mouse<'a> {
-    times: &'a SpeedRunTimes<MAZE>,
-    goals: &'a [Cell],
     walls: WallMap<MAZE, LOG>,
-    task: Task<'a>,
+    /// Whether walls may be wrong: this is the first map, or the mouse was lost since it began it.
+    is_doubtful: bool,
+    explorer: SpeedRunExplorer<'a, MAZE>,
+    place: Place,
 }
 
-/// Task at present. There is only one at a time, so that all tasks can share the same memory.
+/// Knowledge of where the mouse is.
 #[derive(Clone, Debug)]
 #[expect(clippy::large_enum_variant, reason = "there is no heap to put it on")]
-enum Task<'a> {
-    Explore {
-        explorer: SpeedRunExplorer<'a, MAZE>,
+enum Place {
+    Known {
         cell: Cell,
         heading: Direction,
     },
-    Localize {
+    Lost {
         poses: PoseSet<MAZE>,
-        /// Number of cells that the mouse may still drive to localize.
+        /// Number of cells that the mouse may still drive to find its place.
         patience: u8,
     },
 }
+
+/// The map of a maze that the mouse has never seen.
+const UNSEEN: WallMap<MAZE, LOG> =
+    match WallMap::new(Grid::new(MAZE as u16, MAZE as u16), ClosedCells::Possible) {
+        Ok(map) => map,
+        Err(_) => panic!("the map is as large as the maze"),
+    };
 
 /// Reading of the wall sensors: which sides of the cell are open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,59 +87,59 @@ pub enum Command {
         /// Duration of the fastest run, ms.
         run_ms: u16,
     },
-    /// Stay: the known walls do not determine the mouse's place, or contradict its readings. Carry
-    /// it back to the start.
+    /// Stay: the known walls do not determine the mouse's place, or fit its readings nowhere. Carry
+    /// it back to the start, where it begins a new map.
     CarryBack,
-    /// Stay: by the known walls, no way leads to the goal.
+    /// Stay: no way leads to the goal. A mouse that may have been lost says so only if it finds the
+    /// same in a second map.
     GiveUp,
 }
 
 impl<'a> Mouse<'a> {
     /// Returns a mouse at the start of a maze that it has never seen.
-    ///
-    /// # Errors
-    /// Never, because the map has room for the maze.
-    pub fn new(times: &'a SpeedRunTimes<MAZE>, goals: &'a [Cell]) -> Result<Self, TooLarge> {
-        let grid = Grid::new(MAZE as u16, MAZE as u16);
-        Ok(Self {
-            times,
-            goals,
-            walls: WallMap::new(grid, ClosedCells::Possible)?,
-            task: explore(times, goals, START),
-        })
+    #[must_use]
+    pub const fn new(times: &'a SpeedRunTimes<MAZE>, goals: &'a [Cell]) -> Self {
+        Self {
+            walls: UNSEEN,
+            is_doubtful: true,
+            explorer: SpeedRunExplorer::new(times, START.0, START.1, goals),
+            place: Place::Known {
+                cell: START.0,
+                heading: START.1,
+            },
+        }
     }
 
-    /// Returns the next command, given the mouse's readings on arrival in a cell.
+    /// Returns the next command, given the mouse's readings on arrival in a cell. If they
+    /// contradict its map, the mouse is elsewhere or a wall is wrong: it forgets its last
+    /// observations and looks for its place.
     ///
     /// # Errors
     /// Never, because the map has room for the maze.
     pub fn arrive(&mut self, seen: Sides) -> Result<Command, TooLarge> {
-        if let Task::Localize { poses, patience } = &mut self.task {
+        if self.contradicts(seen) {
+            self.crash()?;
+        }
+        if let Place::Lost { poses, patience } = &mut self.place {
             for (side, is_open) in seen.all() {
                 poses.see(&self.walls, side, is_open);
             }
             match poses.location() {
-                PoseKnowledge::Found { cell, heading } => {
-                    self.task = explore(self.times, self.goals, (cell, heading));
-                }
+                PoseKnowledge::Found { cell, heading } => self.found_at(cell, heading),
                 PoseKnowledge::Among { .. } => {
-                    return Ok(look_around(poses, patience, &self.walls));
+                    let side = look_around(poses, patience, &self.walls);
+                    return Ok(side.map_or_else(|| self.begin_again(), Command::Drive));
                 }
-                PoseKnowledge::Nowhere => return Ok(Command::CarryBack),
+                PoseKnowledge::Nowhere => return Ok(self.begin_again()),
             }
         }
-        let Task::Explore {
-            explorer,
-            cell,
-            heading,
-        } = &mut self.task
-        else {
-            return Ok(Command::CarryBack);
+        let Place::Known { cell, heading } = &mut self.place else {
+            return Ok(self.begin_again());
         };
         if self.walls.observe(*cell, &seen.rays(*heading)).is_err() {
-            return Ok(Command::CarryBack);
+            return Ok(self.begin_again());
         }
-        Ok(match explorer.decide(&self.walls, *cell, *heading)? {
+        Ok(match self.explorer.decide(&self.walls, *cell, *heading)? {
             Decision::Drive(direction) => {
                 let side = direction.seen_from(*heading);
                 *cell = self
@@ -144,8 +151,38 @@ impl<'a> Mouse<'a> {
                 Command::Drive(side)
             }
             Decision::Finished { run_ms } => Command::Ready { run_ms },
+            // Every maze has a way to its goal, so the mouse doubts its map first.
+            Decision::Stuck if self.is_doubtful => self.begin_again(),
             Decision::Stuck => Command::GiveUp,
         })
+    }
+
+    /// Returns whether a mouse that believes to know its place and sees this is elsewhere, or has
+    /// a wrong map.
+    fn contradicts(&self, seen: Sides) -> bool {
+        let Place::Known { cell, heading } = self.place else {
+            return false;
+        };
+        let differs = |(side, is_open): (Direction, bool)| {
+            let known = self.walls.knowledge(cell, heading.turned(side));
+            known == Knowledge::of_standing(is_open)
+        };
+        seen.all().into_iter().any(differs)
+    }
+
+    /// Takes up the exploration. The mouse may never have been where it believed to be, so it goes
+    /// to the goal once more.
+    const fn found_at(&mut self, cell: Cell, heading: Direction) {
+        self.place = Place::Known { cell, heading };
+        self.explorer.restart();
+    }
+
+    /// Forgets all walls, because some are wrong or do not tell where the mouse is.
+    fn begin_again(&mut self) -> Command {
+        self.walls = UNSEEN;
+        self.is_doubtful = false;
+        self.found_at(START.0, START.1);
+        Command::CarryBack
     }
 
     /// Tells the mouse that it has crashed and lost its way. Its last observations may be wrong and
@@ -155,10 +192,13 @@ impl<'a> Mouse<'a> {
     /// Never, because the map has room for the maze.
     pub fn crash(&mut self) -> Result<(), TooLarge> {
         self.walls.undo(DOUBTFUL);
-        self.task = Task::Localize {
-            poses: PoseSet::anywhere(self.walls.grid())?,
-            patience: PATIENCE,
+        self.is_doubtful = true;
+        let patience = match self.place {
+            Place::Known { .. } => PATIENCE,
+            Place::Lost { patience, .. } => patience.saturating_sub(1),
         };
+        let poses = PoseSet::anywhere(self.walls.grid())?;
+        self.place = Place::Lost { poses, patience };
         Ok(())
     }
 
@@ -166,7 +206,13 @@ impl<'a> Mouse<'a> {
     /// because they may be wrong.
     pub fn carried_back(&mut self) {
         self.walls.undo(DOUBTFUL);
-        self.task = explore(self.times, self.goals, START);
+        self.found_at(START.0, START.1);
+    }
+
+    /// Returns whether the mouse looks for its place.
+    #[must_use]
+    pub const fn is_lost(&self) -> bool {
+        matches!(self.place, Place::Lost { .. })
     }
 
     /// Calls `each` with the moves of the fastest run through walls that are known to be open. Call
@@ -175,34 +221,22 @@ impl<'a> Mouse<'a> {
     /// # Errors
     /// Never, because the map has room for the maze.
     pub fn run(&self, each: impl FnMut(RunStep)) -> Result<(), TooLarge> {
-        if let Task::Explore { explorer, .. } = &self.task {
-            let known = Passages::new(&self.walls, Unknown::Closed)?;
-            explorer.planner().run(&known).for_each(each);
-        }
+        let known = Passages::new(&self.walls, Unknown::Closed)?;
+        self.explorer.planner().run(&known).for_each(each);
         Ok(())
     }
 }
 
-fn explore<'a>(
-    times: &'a SpeedRunTimes<MAZE>,
-    goals: &'a [Cell],
-    (cell, heading): (Cell, Direction),
-) -> Task<'a> {
-    Task::Explore {
-        explorer: SpeedRunExplorer::new(times, START.0, START.1, goals),
-        cell,
-        heading,
-    }
-}
-
-/// Returns the command that leads to a place where the possible poses look different.
-fn look_around(poses: &mut PoseSet<MAZE>, patience: &mut u8, walls: &impl Walls) -> Command {
-    let next = patience.checked_sub(1).zip(poses.next_drive(walls));
-    next.map_or(Command::CarryBack, |(left, side)| {
-        *patience = left;
-        poses.drive(walls, side);
-        Command::Drive(side)
-    })
+/// Returns the side by which the mouse leaves for a place where the possible poses look different.
+fn look_around(
+    poses: &mut PoseSet<MAZE>,
+    patience: &mut u8,
+    walls: &impl Walls,
+) -> Option<Direction> {
+    *patience = patience.checked_sub(1)?;
+    let side = poses.next_drive(walls)?;
+    poses.drive(walls, side);
+    Some(side)
 }
 
 impl Sides {
