@@ -15,7 +15,7 @@ use std::time::Instant;
 use anyhow::{Result, anyhow, bail};
 
 use crate::workspace::{self, built, cargo, installed, succeed};
-use crate::{docs, fuzz, golden, layers, mazes, mutants, playground, prose, python, rerun};
+use crate::{board, docs, fuzz, golden, layers, mazes, mutants, playground, prose, python, rerun};
 
 /// Outcome of a step that did not fail.
 pub(crate) enum Outcome {
@@ -63,10 +63,14 @@ const STEPS: &[Step] = &[
     }),
     ("bare metal", bare_metal::check),
     ("firmware", firmware::check),
+    ("board", board::check),
     ("msrv", msrv::check),
     ("licences", || {
-        if_installed("cargo-deny", || passes("deny --all-features check"))
+        if_installed("cargo-deny", || {
+            passes("deny --all-features check bans licenses sources")
+        })
     }),
+    ("advisories", || if_installed("cargo-deny", advisories)),
     ("spelling", || {
         if_installed("typos", || passed(succeed(&mut typos())))
     }),
@@ -196,6 +200,14 @@ fn commands() -> Result<Outcome> {
     // For the whole workspace, so that it reuses what the tests have compiled.
     let mut test = cargo("test --workspace --all-features --test commands --quiet -- --ignored");
     passed(succeed(test.env("TOLMAN", built("tolman")?.get_program())))
+}
+
+/// Compares the dependencies with the list of known weaknesses, where it can be fetched.
+fn advisories() -> Result<Outcome> {
+    if let Err(error) = succeed(&mut cargo("deny fetch db")) {
+        return Ok(Outcome::Skipped(format!("no list of weaknesses: {error}")));
+    }
+    passes("deny --all-features check advisories")
 }
 
 /// Tests the pages that golden runs and shown commands have left, in a browser.

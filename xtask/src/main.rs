@@ -7,6 +7,7 @@
 extern crate alloc;
 
 mod bench;
+mod board;
 mod ci;
 mod dist;
 mod docs;
@@ -81,6 +82,8 @@ enum Verb {
         /// Bench to run; all if left out
         name: Option<String>,
     },
+    /// Runs the mouse on an emulated chip, and tells the memory and the time that it needs
+    Board,
     /// Checks that comments keep to 100 columns, and that comments, messages and pages use plain
     /// words
     Prose,
@@ -138,6 +141,7 @@ fn main() -> ExitCode {
         Verb::Layers => layers::run(),
         Verb::Mazes => mazes::run(),
         Verb::Bench { name } => bench::run(name.as_deref()),
+        Verb::Board => board::run(),
         Verb::Prose => prose::run(),
         Verb::Dist => dist::run(),
         Verb::Fuzz {

@@ -1,0 +1,123 @@
+//! `cargo xtask board`: runs the mouse on an emulated chip, and tells the memory and the time that
+//! it needs. The package is no member of the workspace.
+
+use std::process::Command;
+
+use anyhow::{Context, Result, ensure};
+use serde_json::Value;
+
+use crate::ci::Outcome;
+use crate::workspace::{cargo, installed, output, root, succeed, target_folder};
+
+/// Folder of the package. Its settings of cargo name the chip and the emulator.
+const FOLDER: &str = "crates/firmware/board";
+
+/// The program, in the folder that cargo builds into.
+const PROGRAM: &str = "thumbv7em-none-eabihf/release/tolman-board";
+
+/// The most that the mouse may need.
+const LIMITS: Needs = Needs {
+    memory: 26 << 10,
+    flash: 56 << 10,
+    located: 1_300_000,
+    lost: 13_000_000,
+};
+
+/// What the mouse needs.
+struct Needs {
+    /// Stack and variables, bytes.
+    memory: u64,
+    /// Code and constants, bytes.
+    flash: u64,
+    /// Longest decision of a mouse that knows its place, instructions.
+    located: u64,
+    /// Longest decision of a lost mouse, instructions.
+    lost: u64,
+}
+
+/// Says what the mouse needs, or why that cannot be found out.
+///
+/// # Errors
+/// As [`check`].
+pub(crate) fn run() -> Result<()> {
+    if let Outcome::Skipped(why) = check()? {
+        eprintln!("skipped: {why}");
+    }
+    Ok(())
+}
+
+/// Checks the package's form, lints it, runs it, and compares what the mouse needs with what it may
+/// need.
+///
+/// # Errors
+/// If it does not build, fails, or needs more.
+pub(crate) fn check() -> Result<Outcome> {
+    for program in ["qemu-system-arm", "size"] {
+        if !installed(program) {
+            return Ok(Outcome::Skipped(format!("{program} is not installed")));
+        }
+    }
+    if succeed(&mut here("fetch --locked --quiet")?).is_err() {
+        let why = "the crates it needs cannot be fetched";
+        return Ok(Outcome::Skipped(why.to_owned()));
+    }
+    succeed(here("fmt")?.args(["--", "--check"]))?;
+    succeed(here("clippy --locked --quiet --release")?.args(["--", "--deny", "warnings"]))?;
+    let needs = measured()?;
+    eprintln!(
+        "the mouse runs in {} bytes of memory and {} of flash; its longest decision takes {} \
+         instructions, {} when it is lost",
+        needs.memory, needs.flash, needs.located, needs.lost
+    );
+    ensure!(
+        needs.flash <= LIMITS.flash && needs.located <= LIMITS.located && needs.lost <= LIMITS.lost,
+        "at most {} bytes of memory and {} of flash, {} and {} instructions are allowed",
+        LIMITS.memory,
+        LIMITS.flash,
+        LIMITS.located,
+        LIMITS.lost
+    );
+    Ok(Outcome::Passed)
+}
+
+/// Runs the mouse.
+fn measured() -> Result<Needs> {
+    let lines = output(&mut here("run --locked --quiet --release")?)?;
+    let lines = lines
+        .lines()
+        .map(|line| serde_json::from_str(line).with_context(|| format!("not JSON: {line}")))
+        .collect::<Result<Vec<Value>>>()?;
+    let most = |name: &str| -> Result<u64> {
+        let numbers = lines.iter().filter_map(|line| line[name].as_u64());
+        numbers
+            .max()
+            .with_context(|| format!("no line names {name}"))
+    };
+    Ok(Needs {
+        memory: most("memory")?,
+        flash: flash()?,
+        located: most("located")?,
+        lost: most("lost")?,
+    })
+}
+
+/// Returns the size of code and constants, bytes.
+fn flash() -> Result<u64> {
+    let table = output(Command::new("size").arg(target_folder()?.join(PROGRAM)))?;
+    let numbers = table.lines().nth(1).context("`size` printed no numbers")?;
+    let numbers = numbers.split_whitespace().take(2).map(str::parse::<u64>);
+    let [text, data]: [u64; 2] = numbers
+        .collect::<Result<Vec<_>, _>>()?
+        .try_into()
+        .ok()
+        .context("`size` printed too few numbers")?;
+    Ok(text + data)
+}
+
+fn here(arguments: &str) -> Result<Command> {
+    let mut command = cargo(arguments);
+    command
+        .current_dir(root().join(FOLDER))
+        .env("CARGO_TARGET_DIR", target_folder()?);
+    Ok(command)
+}
