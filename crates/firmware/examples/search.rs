@@ -14,12 +14,7 @@ struct Body<'a> {
 
 impl Body<'_> {
     fn look(&self) -> Sides {
-        let is_open = |side: Direction| self.maze.is_open(self.cell, self.heading.turned(side));
-        Sides {
-            left: is_open(Direction::West),
-            ahead: is_open(Direction::North),
-            right: is_open(Direction::East),
-        }
+        Sides::read(|side| self.maze.is_open(self.cell, self.heading.turned(side)))
     }
 
     fn drive(&mut self, side: Direction) {

@@ -240,6 +240,15 @@ fn look_around(
 }
 
 impl Sides {
+    /// Returns the reading of sensors that say of a side whether it is open; north is ahead.
+    pub fn read(is_open: impl Fn(Direction) -> bool) -> Self {
+        Self {
+            left: is_open(Direction::West),
+            ahead: is_open(Direction::North),
+            right: is_open(Direction::East),
+        }
+    }
+
     fn all(self) -> [(Direction, bool); 3] {
         [
             (Direction::North, self.ahead),

@@ -78,11 +78,7 @@ impl<'a> Body<'a> {
     }
 
     fn look(&self) -> Sides {
-        Sides {
-            left: self.is_open(Direction::West),
-            ahead: self.is_open(Direction::North),
-            right: self.is_open(Direction::East),
-        }
+        Sides::read(|side| self.is_open(side))
     }
 
     /// Drives one cell. Returns whether a wall stopped it.

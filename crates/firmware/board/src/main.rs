@@ -22,7 +22,7 @@ static MAZES: &[(&str, &[Cell], [u8; 256])] = include!(concat!(env!("OUT_DIR"), 
 /// Number of cells after which the mouse is put down elsewhere.
 const CARRIED: u32 = 60;
 
-/// Where it is put down, if the side behind it is open there.
+/// Where it is put down. It is turned until the side behind it is open.
 const ELSEWHERE: Cell = Cell::new(3, 1);
 
 /// A word that the stack has not reached.
@@ -51,11 +51,7 @@ impl Body {
     }
 
     fn look(&self) -> Sides {
-        Sides {
-            left: self.is_open(Direction::West),
-            ahead: self.is_open(Direction::North),
-            right: self.is_open(Direction::East),
-        }
+        Sides::read(|side| self.is_open(side))
     }
 
     fn drive(&mut self, side: Direction) -> bool {
