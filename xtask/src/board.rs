@@ -6,7 +6,7 @@ use std::process::Command;
 use anyhow::{Context, Result, ensure};
 use serde_json::Value;
 
-use crate::ci::Outcome;
+use crate::ci::{Outcome, bare_metal};
 use crate::workspace::{cargo, installed, output, root, succeed, target_folder};
 
 /// Folder of the package. Its settings of cargo name the chip and the emulator.
@@ -57,6 +57,9 @@ pub(crate) fn check() -> Result<Outcome> {
             return Ok(Outcome::Skipped(format!("{program} is not installed")));
         }
     }
+    if !bare_metal::target_installed()? {
+        return Ok(Outcome::Skipped(bare_metal::missing_target()));
+    }
     if succeed(&mut here("fetch --locked --quiet")?).is_err() {
         let why = "the crates it needs cannot be fetched";
         return Ok(Outcome::Skipped(why.to_owned()));
@@ -70,7 +73,10 @@ pub(crate) fn check() -> Result<Outcome> {
         needs.memory, needs.flash, needs.located, needs.lost
     );
     ensure!(
-        needs.flash <= LIMITS.flash && needs.located <= LIMITS.located && needs.lost <= LIMITS.lost,
+        needs.memory <= LIMITS.memory
+            && needs.flash <= LIMITS.flash
+            && needs.located <= LIMITS.located
+            && needs.lost <= LIMITS.lost,
         "at most {} bytes of memory and {} of flash, {} and {} instructions are allowed",
         LIMITS.memory,
         LIMITS.flash,

@@ -1,7 +1,7 @@
 //! `cargo xtask ci`: runs the steps that a change must pass, times each, and prints a table at the
 //! end.
 
-mod bare_metal;
+pub(crate) mod bare_metal;
 mod firmware;
 mod msrv;
 mod outside;

@@ -35,13 +35,17 @@ pub(super) fn check() -> Result<Outcome> {
         eprintln!("{} build for {TARGET}", names.join(", "));
         Outcome::Passed
     } else {
-        Outcome::Skipped(format!(
-            "checked on the host only: rustup target add {TARGET}"
-        ))
+        Outcome::Skipped(format!("checked on the host only: {}", missing_target()))
     })
 }
 
-fn target_installed() -> Result<bool> {
+/// Returns what to do about the missing target.
+pub(crate) fn missing_target() -> String {
+    format!("rustup target add {TARGET}")
+}
+
+/// Returns whether programs for the target can be built.
+pub(crate) fn target_installed() -> Result<bool> {
     let mut rustc = std::process::Command::new("rustc");
     let folder = output(rustc.args(["--print", "target-libdir", "--target", TARGET]))?;
     Ok(Path::new(folder.trim()).is_dir())
