@@ -33,7 +33,8 @@ impl<const N: usize> Buckets<N> {
         }
     }
 
-    /// Puts `cell` into `bucket`. A bucket 2 N or more beyond the first is one of those before it.
+    /// Puts `cell` into `bucket`. A bucket 2 N or more beyond the first is one of those before it,
+    /// so its cells come too early, and again if they are reached sooner.
     #[inline(always)]
     pub(super) fn insert(&mut self, bucket: usize, cell: usize) {
         let (x, y) = (cell % N, cell / N % N);

@@ -131,18 +131,4 @@ pub enum SpeedRunConfigError {
         /// Duration of the longest move, ms.
         longest_ms: u64,
     },
-    /// The longest move takes too many times as long as the shortest, so that the search would need
-    /// more buckets than it has.
-    #[error(
-        "the longest move takes {longest_ms} ms, more than {most} times as long as the shortest with \
-         {shortest_ms} ms: use a map for larger mazes"
-    )]
-    TooUneven {
-        /// Duration of the longest move, ms.
-        longest_ms: u64,
-        /// Duration of the shortest move, ms.
-        shortest_ms: u64,
-        /// Maximum ratio of the two durations.
-        most: usize,
-    },
 }

@@ -3,6 +3,7 @@ use core::mem;
 use tolman_maze::Cell;
 
 use super::buckets::Buckets;
+use super::estimate::Estimate;
 use super::state::{Node, STATES_PER_CELL, index};
 use super::ways::{line, turns};
 use super::{RunState, SpeedRun, SpeedRunTimes};
@@ -28,7 +29,10 @@ const NEVER: u16 = u16::MAX;
 /// bucket is empty, all times within it are final. Only states behind a turn wait there: from all
 /// along a straight the search turns at once. What is reached sooner later on is driven on from
 /// again, which happens too seldom to be worth a finer order. Source: Denardo and Fox,
-/// *Shortest-route methods: 1. Reaching, pruning, and buckets* (1979).
+/// *Shortest-route methods: 1. Reaching, pruning, and buckets* (1979). A search until a start is
+/// A*: its buckets are of the least time that a whole run can take, and it leaves out what cannot
+/// be part of a run as fast as one that was found. Source: Hart, Nilsson and Raphael, *A formal
+/// basis for the heuristic determination of minimum cost paths* (1968).
 #[derive(Clone, Debug)]
 pub struct SpeedRunMap<const N: usize> {
     /// Times to the reversed states, ms: the search drives backwards from the goals.
@@ -43,9 +47,8 @@ pub struct SpeedRunMap<const N: usize> {
 pub enum Extent {
     /// Searches every state.
     Everywhere,
-    /// Searches until the duration from this state is certain. So are those of all states nearer to
-    /// a goal, except in dead ends, where no run to a goal leads. Those farther away may be too
-    /// long, or missing.
+    /// Searches until the duration from this state is certain, and those of all states on a best
+    /// run from it. Others may be too long, or missing.
     Until(RunState),
 }
 
@@ -97,20 +100,20 @@ impl<const N: usize> SpeedRunMap<N> {
         self.times.as_flattened_mut().fill([NEVER; STATES_PER_CELL]);
         self.waiting.as_flattened_mut().fill(0);
         self.buckets.clear();
+        let mut estimate = Estimate::to(last, times);
         let side = N as u16;
         for goal in goals.iter().filter(|goal| goal.x < side && goal.y < side) {
             for heading in 0..4 {
                 let node = Node::straight(index::<N>(*goal), heading);
-                self.reach(node, 0, NEVER, times);
+                self.reach(node, 0, &estimate, times);
             }
         }
         let mut bucket = 0;
         while let Some(next) = self.buckets.next(bucket) {
             bucket = next;
             while let Some(cell) = self.buckets.pop(bucket) {
-                // Nothing that takes longer than a run that was found is part of a faster one.
-                let limit = last.map_or(NEVER, |last| self.time(last));
-                self.settle(cell, limit, passages, times);
+                estimate.at_most = last.map_or(NEVER, |last| self.time(last)).into();
+                self.settle(cell, &estimate, passages, times);
             }
             if last.is_some_and(|last| times.bucket(self.time(last)) <= bucket) {
                 break;
@@ -152,12 +155,12 @@ impl<const N: usize> SpeedRunMap<N> {
         times.get(node.number).copied().unwrap_or(NEVER)
     }
 
-    /// Drives on from every waiting state of `cell`, if that can make a run faster than `limit`.
+    /// Drives on from every waiting state of `cell`.
     #[inline(always)]
     fn settle(
         &mut self,
         cell: usize,
-        limit: u16,
+        estimate: &Estimate<N>,
         passages: &Passages<N>,
         times: &SpeedRunTimes<N>,
     ) {
@@ -167,7 +170,7 @@ impl<const N: usize> SpeedRunMap<N> {
             let from = Node::numbered(cell, waiting.trailing_zeros() as usize);
             waiting &= waiting - 1;
             let time = self.time(from);
-            self.turn(from, time, limit, passages, times);
+            self.turn(from, time, estimate, passages, times);
             let lengths = times.straights_of(from.facing());
             for (cells, to, is_open) in line(passages, from) {
                 let Some(best) = self
@@ -185,14 +188,15 @@ impl<const N: usize> SpeedRunMap<N> {
                 }
                 let takes = lengths.get(cells).copied().unwrap_or(NEVER);
                 let arrives = time.saturating_add(takes);
-                if arrives < limit.min(*best) {
+                let whole = estimate.of_run(arrives.into(), to.cell);
+                if (arrives < *best) & (whole <= estimate.at_most) {
                     *best = arrives;
                     if let Some(waiting) =
                         self.waiting.as_flattened_mut().get_mut(to.cell % (N * N))
                     {
                         *waiting &= !(1 << to.state);
                     }
-                    self.turn(to, arrives, limit, passages, times);
+                    self.turn(to, arrives, estimate, passages, times);
                 }
             }
         }
@@ -205,28 +209,29 @@ impl<const N: usize> SpeedRunMap<N> {
         &mut self,
         from: Node,
         time: u16,
-        limit: u16,
+        estimate: &Estimate<N>,
         passages: &Passages<N>,
         times: &SpeedRunTimes<N>,
     ) {
         for (slalom, _, to) in turns(passages, from) {
             let arrives = u32::from(time) + u32::from(times.turn_ms(slalom));
-            self.reach(to, arrives, limit, times);
+            self.reach(to, arrives, estimate, times);
         }
     }
 
     #[inline(always)]
-    fn reach(&mut self, node: Node, time: u32, limit: u16, times: &SpeedRunTimes<N>) {
+    fn reach(&mut self, node: Node, time: u32, estimate: &Estimate<N>, times: &SpeedRunTimes<N>) {
         let states = self.times.as_flattened_mut().as_flattened_mut();
+        let whole = estimate.of_run(time, node.cell);
         if let Some(best) = states.get_mut(node.number)
-            && time < u32::from(limit.min(*best))
+            && (time < u32::from(*best)) & (whole <= estimate.at_most)
         {
             let time = time as u16;
             *best = time;
             if let Some(waiting) = self.waiting.as_flattened_mut().get_mut(node.cell % (N * N)) {
                 *waiting |= 1 << node.state;
             }
-            self.buckets.insert(times.bucket(time), node.cell);
+            self.buckets.insert(times.bucket(whole as u16), node.cell);
         }
     }
 }

@@ -51,6 +51,7 @@ mod buckets;
 #[cfg(feature = "alloc")]
 mod certificate;
 mod config;
+mod estimate;
 mod explorer;
 mod map;
 mod moves;

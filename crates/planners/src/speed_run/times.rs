@@ -32,6 +32,8 @@ pub struct SpeedRunTimes<const N: usize> {
     turns: [u16; 5],
     /// 2¹⁶ by twice the time of the shortest move.
     bucket_scale: u32,
+    /// What the fastest move takes for each cell that it leads on, 1/16 ms.
+    per_cell: u32,
 }
 
 impl<const N: usize> SpeedRunTimes<N> {
@@ -42,8 +44,8 @@ impl<const N: usize> SpeedRunTimes<N> {
     /// d) − s) / a. Otherwise it takes (a d + (v − s)²) / (a v).
     ///
     /// # Errors
-    /// If a value is not a positive number or a top speed is below the speed in the turns. Also if
-    /// the times are too far apart for the search.
+    /// If a value is not a positive number, a top speed is below the speed in the turns, or a move
+    /// takes no time or more than 65.535 s.
     pub fn new(config: &SpeedRunConfig) -> Result<Self, SpeedRunConfigError> {
         const {
             assert!(N >= 1 && N <= 32, "a row of cells is a word of 32 bits");
@@ -70,21 +72,34 @@ impl<const N: usize> SpeedRunTimes<N> {
         }
         // Wider buckets are fewer, narrower ones let less be driven again. This was fastest.
         let bucket_scale = (1_u32 << 16) / (2 * shortest_ms as u32);
-        if bucket(bucket_scale, longest_ms as u16) + 2 > 2 * N {
-            return Err(SpeedRunConfigError::TooUneven {
-                longest_ms,
-                shortest_ms,
-                most: 2 * (2 * N - 2),
-            });
-        }
         // All fit in 16 bits: none is longer than the longest.
-        Ok(Self {
+        let mut times = Self {
             straight: array::from_fn(|cells| straight_ms(cells) as u16),
             diagonal: array::from_fn(|half| array::from_fn(|n| diagonal_ms(half * N + n) as u16)),
             slalom,
             turns: slalom.all(),
             bucket_scale,
-        })
+            per_cell: 0,
+        };
+        times.per_cell = (16.0 * times.fastest_ms_per_cell()) as u32;
+        Ok(times)
+    }
+
+    /// Returns the least time of a move for each cell that it leads on, ms. A diagonal of n half
+    /// cell diagonals leads on by n √½ cells, or by one cell if n = 1; a turn by at most √2 cells.
+    fn fastest_ms_per_cell(&self) -> f64 {
+        use core::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
+        let per = |cells: f64| move |ms: &u16| f64::from(*ms) / cells;
+        let straights = self.straights().iter().enumerate().skip(1);
+        let straights = straights.map(|(cells, ms)| per(cells as f64)(ms));
+        let diagonals = self.diagonals().iter().enumerate().skip(1);
+        let diagonals =
+            diagonals.map(|(halves, ms)| per(f64::max(1.0, FRAC_1_SQRT_2 * halves as f64))(ms));
+        let turns = self.turns.iter().map(per(SQRT_2));
+        straights
+            .chain(diagonals)
+            .chain(turns)
+            .fold(f64::INFINITY, f64::min)
     }
 
     /// Returns the duration of a straight of `cells` cells, ms, from the middle of one cell to the
@@ -143,7 +158,11 @@ impl<const N: usize> SpeedRunTimes<N> {
         self.turns.get(slalom as usize).copied().unwrap_or(u16::MAX)
     }
 
-    /// Returns the bucket of the search that a time belongs to. A move leads on by less than 2 N.
+    pub(super) const fn per_cell(&self) -> u32 {
+        self.per_cell
+    }
+
+    /// Returns the bucket of the search that a time belongs to.
     pub(super) const fn bucket(&self, time: u16) -> usize {
         bucket(self.bucket_scale, time)
     }
@@ -308,7 +327,7 @@ mod tests {
 
     #[test]
     fn what_cannot_be_driven_is_refused() {
-        use SpeedRunConfigError::{NotPositive, OutOfRange, TooUneven, TopSpeedTooLow};
+        use SpeedRunConfigError::{NotPositive, OutOfRange, TopSpeedTooLow};
         assert_eq!(outcome(|_| ()), Ok(()));
         assert!(matches!(
             outcome(|config| config.cell_mm = f64::NAN),
@@ -338,10 +357,6 @@ mod tests {
         assert!(matches!(
             outcome(|config| config.cell_mm = 1e9),
             Err(OutOfRange { .. })
-        ));
-        assert!(matches!(
-            outcome(|config| config.slalom.f90_ms = 5),
-            Err(TooUneven { shortest_ms: 5, .. })
         ));
     }
 }

@@ -1,0 +1,97 @@
+use super::SpeedRunTimes;
+use super::state::Node;
+
+/// What is known of a run while it is searched for: where it ends, how long it takes at most, and
+/// how long from each cell at least. Without an end, nothing.
+pub(super) struct Estimate<const N: usize> {
+    /// Column and row of the cell in which the run ends.
+    end: (usize, usize),
+    /// 1/16 ms for each cell of the way to the end.
+    per_cell: u32,
+    /// Duration of the fastest run found so far, ms.
+    pub(super) at_most: u32,
+}
+
+impl<const N: usize> Estimate<N> {
+    pub(super) fn to(end: Option<Node>, times: &SpeedRunTimes<N>) -> Self {
+        let cell = end.map_or(0, |end| end.cell);
+        Self {
+            end: (cell % N, cell / N),
+            per_cell: end.map_or(0, |_| times.per_cell()),
+            at_most: u16::MAX.into(),
+        }
+    }
+
+    /// Returns how long a run takes at least, ms, if it is in `cell` after `time`. No move makes
+    /// that less: it takes as long as it brings the run nearer, or longer.
+    #[inline(always)]
+    pub(super) fn of_run(&self, time: u32, cell: usize) -> u32 {
+        let east = (cell % N).abs_diff(self.end.0) as u32;
+        let north = (cell / N).abs_diff(self.end.1) as u32;
+        // The larger of the way along an axis and the way along a diagonal, in 1/256 cells: 181/256
+        // is a little less than √½.
+        let distance = (256 * east.max(north)).max(181 * (east + north));
+        time + ((distance * self.per_cell) >> 12)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+    use tolman_maze::{Grid, Maze};
+
+    use super::super::ways::{straights, turns};
+    use super::*;
+    use crate::speed_run::{SpeedRunConfig, SpeedRunConfigError};
+    use crate::{Passages, Unknown};
+
+    /// Times of moves that last very differently, too.
+    fn times(
+        turns: [u16; 5],
+        cell_mm: f64,
+        top_speed: f64,
+    ) -> Result<SpeedRunTimes<9>, SpeedRunConfigError> {
+        let mut config = SpeedRunConfig::classic();
+        config.cell_mm = cell_mm;
+        config.straight.top_speed_mm_s = top_speed;
+        let slalom = &mut config.slalom;
+        [
+            slalom.f45_ms,
+            slalom.f90_ms,
+            slalom.f135_ms,
+            slalom.f180_ms,
+            slalom.fv90_ms,
+        ] = turns;
+        SpeedRunTimes::new(&config)
+    }
+
+    proptest! {
+        #[test]
+        fn no_move_makes_the_estimate_less(
+            turn_ms in prop::array::uniform5(30_u16..600),
+            cell_mm in 20.0..300.0,
+            top_speed in 420.0..3000.0,
+            end in 0_usize..81,
+            from in 0_usize..81,
+            state in 0_usize..12,
+        ) {
+            let Ok(times) = times(turn_ms, cell_mm, top_speed) else {
+                return Ok(());
+            };
+            let maze = Maze::open(Grid::new(9, 9));
+            let passages = Passages::<9>::new(&maze, Unknown::Closed).unwrap();
+            let estimate = Estimate::to(Some(Node::numbered(end, 0)), &times);
+            let from = Node::numbered(from, state);
+            let before = estimate.of_run(0, from.cell);
+            for (cells, to) in straights(&passages, from) {
+                let takes = times.straights_of(from.facing())[cells].into();
+                prop_assert!(estimate.of_run(takes, to.cell) >= before);
+            }
+            for (slalom, _, to) in turns(&passages, from) {
+                let takes = times.turn_ms(slalom).into();
+                prop_assert!(estimate.of_run(takes, to.cell) >= before);
+            }
+            prop_assert_eq!(estimate.of_run(7, end), 7);
+        }
+    }
+}
