@@ -10,7 +10,7 @@
 //!
 //! [`micromouse`] is a paper's mouse and its referee; in the [`competition`] a micromouse explores
 //! a maze for its speed run. [`gngslam`] has the arenas and the data of the place map.
-//! [`log_score`] judges ways that were found from logs. [`mms`] is the protocol of the simulator of
+//! [`bump_walk`] is a robot that only feels walls, and the judge of its map. [`log_score`] judges ways that were found from logs. [`mms`] is the protocol of the simulator of
 //! that name; [`foreign`] runs foreign programs under supervision.
 //!
 //! # Who learns a maze
@@ -25,6 +25,7 @@ extern crate alloc;
 /// Any error, for readers and callers that only report it.
 pub type BoxError = Box<dyn core::error::Error + Send + Sync>;
 
+pub mod bump_walk;
 pub mod cast;
 pub mod competition;
 pub mod contest;

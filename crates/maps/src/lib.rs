@@ -3,6 +3,7 @@
 //! - [`wall_map`]: the walls of a grid maze: unknown, open or standing. Fixed size, no allocation.
 //! - [`wall_belief`]: the same walls for a mouse whose sensors and wheels err, and where on them it
 //!   is.
+//! - [`bump_map`]: places and ways from actions and bumps alone, without odometry.
 //! - [`cpm`]: the path fragments between junctions, as sequences of common patterns, and how
 //!   junctions join them.
 //! - [`diktiometry`]: places, actions between them and bounds on where they lie, as an observer of
@@ -48,6 +49,8 @@ pub use tolman_robot as robot;
 
 #[cfg(feature = "alloc")]
 pub mod audit;
+#[cfg(feature = "alloc")]
+pub mod bump_map;
 #[cfg(feature = "alloc")]
 pub mod cpm;
 #[cfg(feature = "alloc")]

@@ -3,6 +3,7 @@
 //! `python/tolman` is the other part: the estimators, the environment and the types. Slow or long
 //! work happens here, with Python's lock released.
 
+mod bump_map;
 mod errors;
 mod learner;
 mod log;
@@ -17,6 +18,8 @@ mod system;
 /// The module as Python imports it.
 #[pyo3::pymodule]
 mod _tolman {
+    #[pymodule_export]
+    use crate::bump_map::PyBumpMap;
     #[pymodule_export]
     use crate::learner::PyLearner;
     #[pymodule_export]

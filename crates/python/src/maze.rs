@@ -101,14 +101,9 @@ impl PyMaze {
     /// `"east"`, `"south"` or `"west"`.
     fn is_open(&self, cell: CellTuple, direction: &str) -> PyResult<bool> {
         let cell = self.cell("cell", cell)?;
-        let known = Direction::ALL.into_iter();
-        let mut found = known.filter(|known| known.to_string() == direction);
-        match found.next() {
-            Some(direction) => Ok(self.maze().is_open(cell, direction)),
-            None => Err(wrong(format!(
-                "direction is '{direction}' but has to be 'north', 'east', 'south' or 'west'"
-            ))),
-        }
+        Ok(self
+            .maze()
+            .is_open(cell, self::direction("direction", direction)?))
     }
 
     /// Returns the neighbours of `cell` without a wall in between.
@@ -222,6 +217,21 @@ impl PyMaze {
             ))),
         }
     }
+}
+
+/// Returns the direction of this name.
+///
+/// # Errors
+/// A `ValueError` that names the parameter, if there is none.
+pub(crate) fn direction(parameter: &str, name: &str) -> PyResult<Direction> {
+    let mut known = Direction::ALL.into_iter();
+    known
+        .find(|known| known.to_string() == name)
+        .ok_or_else(|| {
+            wrong(format!(
+                "{parameter} is '{name}' but has to be 'north', 'east', 'south' or 'west'"
+            ))
+        })
 }
 
 const fn tuple(cell: Cell) -> CellTuple {

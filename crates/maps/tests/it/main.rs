@@ -9,6 +9,7 @@
 extern crate alloc;
 
 mod audit;
+mod bump_map;
 mod corridor_map;
 mod cpm;
 mod diktiometry;

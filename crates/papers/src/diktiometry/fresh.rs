@@ -35,7 +35,7 @@ const LARGE_WORLDS: u32 = 20;
 const QUICK: u32 = 2;
 
 /// Stream of a run's seed from which its world is drawn. The walk uses other streams.
-const WORLD_STREAM: u64 = 20;
+pub(super) const WORLD_STREAM: u64 = 20;
 
 /// Walls of eight colours, without doorways.
 const PAINTED: OfficeConfig = {

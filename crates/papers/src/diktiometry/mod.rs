@@ -6,6 +6,7 @@ pub mod drawing;
 mod figures;
 mod fresh;
 mod objection;
+mod odometry_off;
 mod replay;
 mod settings;
 
@@ -21,6 +22,7 @@ use tolman_replay::Replay;
 
 pub use ablations::{ABLATIONS, Change};
 use fresh::{FRESH, FreshRow};
+use odometry_off::{BlindRow, ODOMETRY_OFF};
 use settings::{Rows, Setting, Subject, Trial};
 
 /// Entry in the catalogue.
@@ -42,6 +44,7 @@ pub(super) const ENTRY: Entry = Entry {
 struct Diktiometry {
     trials: Vec<Trial>,
     fresh: Vec<FreshRow>,
+    blind: Vec<BlindRow>,
 }
 
 /// Returns the experiment with its offices.
@@ -56,6 +59,8 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     let fresh = fresh::rows();
     let mut tables: Vec<Table> = trials.iter().map(table).collect();
     tables.push(fresh::table(&fresh, options));
+    let blind = odometry_off::rows();
+    tables.push(odometry_off::table(&blind, options));
     let mut config = BTreeMap::<_, BTreeMap<_, _>>::new();
     for trial in &trials {
         let rows = trial.settings.iter();
@@ -65,7 +70,11 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     let mut config = toml::Table::try_from(config)?;
     let kinds: BTreeMap<_, _> = fresh.iter().map(|row| (row.row, row.config())).collect();
     config.insert(FRESH.to_owned(), toml::Value::try_from(kinds)?);
-    let procedure = Diktiometry { trials, fresh };
+    let procedure = Diktiometry {
+        trials,
+        fresh,
+        blind,
+    };
     Ok(Experiment::new(ENTRY, tables, config, procedure))
 }
 
@@ -177,6 +186,11 @@ impl Procedure for Diktiometry {
         if job.table == FRESH {
             return self.fresh(job)?.run(job.seed);
         }
+        if job.table == ODOMETRY_OFF {
+            let row = self.blind.iter().find(|row| row.row == job.row);
+            let row = row.ok_or_else(|| format!("there is no row {:?}", job.row))?;
+            return row.run(job.seed);
+        }
         let setting = self.setting(job)?;
         let mut survey = Survey::new(&setting.office, setting.config.clone(), job.seed)?;
         let mut plans = Vec::new();
@@ -233,6 +247,9 @@ impl Procedure for Diktiometry {
         if job.table == FRESH {
             let (office, config) = self.fresh(job)?.draw(job.seed)?;
             return replay::of(&office, &config, job).map(Some);
+        }
+        if job.table == ODOMETRY_OFF {
+            return Ok(None);
         }
         let setting = self.setting(job)?;
         match setting.subject {

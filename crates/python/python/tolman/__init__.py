@@ -10,11 +10,12 @@
 
 from ._planners import Path, shortest_path
 from ._quantizers import GNG, SOINN, EquilibriumGNG, NotFittedError
-from ._tolman import Map, Maze, Robot, learn, map_log, systems
+from ._tolman import BumpMap, Map, Maze, Robot, learn, map_log, systems
 
 __all__ = [
     "GNG",
     "SOINN",
+    "BumpMap",
     "EquilibriumGNG",
     "Map",
     "Maze",
