@@ -3,7 +3,7 @@
 
 use alloc::collections::BTreeSet;
 
-use tolman_maps::bump_map::{BumpMap, BumpMove, NotStill, Way};
+use tolman_maps::bump_map::{BumpMap, BumpMove, BumpWay, NotStill};
 use tolman_maze::{Cell, Direction, Maze};
 
 /// What the robot sees of the place where it is.
@@ -65,8 +65,8 @@ impl<'a> BumpWalk<'a> {
         while let Some((place, cell)) = open.pop() {
             for action in Direction::ALL {
                 match (self.map.way(place, action), self.maze.beside(cell, action)) {
-                    (Way::Closed, None) => {}
-                    (Way::To(next), Some(beside)) => {
+                    (BumpWay::Closed, None) => {}
+                    (BumpWay::To(next), Some(beside)) => {
                         if seen.insert((next, beside)) {
                             open.push((next, beside));
                         }

@@ -44,8 +44,8 @@ use thiserror::Error;
 use tolman_maze::Direction;
 
 use evidence::Evidence;
+pub use graph::BumpWay;
 use graph::Graph;
-pub use graph::Way;
 
 /// Expected number of pairs that are made one although they are not, if places agreed by chance.
 const FALSE_MERGES: f64 = 1e-4;
@@ -131,7 +131,7 @@ impl BumpMap {
             action: step.action,
         };
         let here = self.here();
-        let foretold = self.folded.way(here, step.action) != Way::Untried;
+        let foretold = self.folded.way(here, step.action) != BumpWay::Untried;
         let next = self.walk(step).ok_or(contradiction)?;
         self.walked.keep();
         if let Some(tried_last) = self.tried_last.get_mut(here as usize) {
@@ -166,23 +166,23 @@ impl BumpMap {
         Ok(())
     }
 
-    /// Writes a move down in the walk, and returns where it led; `None`, with nothing changed, if it
-    /// contradicts the walk.
+    /// Writes a move down in the walk, and returns where it led; `None`, with nothing changed, if
+    /// it contradicts the walk.
     fn walk(&mut self, step: BumpMove) -> Option<u32> {
         let known = self.walked.way(self.at, step.action);
         match (known, step.moved) {
-            (Way::Untried, false) => {
+            (BumpWay::Untried, false) => {
                 self.walked.close(self.at, step.action);
                 Some(self.at)
             }
-            (Way::Untried, true) => {
+            (BumpWay::Untried, true) => {
                 let next = self.walked.push(step.look);
                 self.walked.join(self.at, step.action, next);
                 Some(next)
             }
-            (Way::Closed, false) => Some(self.at),
-            (Way::To(next), true) => (self.walked.look(next) == step.look).then_some(next),
-            (Way::Closed, true) | (Way::To(_), false) => None,
+            (BumpWay::Closed, false) => Some(self.at),
+            (BumpWay::To(next), true) => (self.walked.look(next) == step.look).then_some(next),
+            (BumpWay::Closed, true) | (BumpWay::To(_), false) => None,
         }
     }
 
@@ -192,7 +192,7 @@ impl BumpMap {
         self.fold_to(self.place_count());
     }
 
-    /// Looks for places that are one, of which about so many should be left.
+    /// Looks for places that are one, until about `about` of them are left.
     fn fold_to(&mut self, about: usize) {
         self.waited = 0;
         let evidence = Evidence::of(&self.walked);
@@ -251,10 +251,10 @@ impl BumpMap {
         self.folded.count()
     }
 
-    /// Returns what is known of a way out of a place, and where it leads. [`Way::Untried`] for a
-    /// place that is none of the map.
+    /// Returns what is known of a way out of a place, and where it leads. A place that is not on
+    /// the map has only untried ways.
     #[must_use]
-    pub fn way(&self, place: u32, action: Direction) -> Way {
+    pub fn way(&self, place: u32, action: Direction) -> BumpWay {
         self.folded.way(place, action)
     }
 
@@ -262,7 +262,7 @@ impl BumpMap {
     #[must_use]
     pub fn untried(&self) -> usize {
         let ways = self.places().flat_map(|place| self.folded.ways(place));
-        ways.filter(|way| *way == Way::Untried).count()
+        ways.filter(|way| *way == BumpWay::Untried).count()
     }
 
     /// Returns how many moves in a row, up to the last, the map predicted.
@@ -271,8 +271,8 @@ impl BumpMap {
         self.foretold
     }
 
-    /// Returns whether the map is complete and has predicted so many moves since that it is probably
-    /// right: eight for each place, twice as many as there are ways. O(places).
+    /// Returns whether the map is complete and probably right: it has predicted the last moves,
+    /// eight for each place, which is twice as many as there are ways. O(places).
     #[must_use]
     pub fn is_tested(&self) -> bool {
         self.foretold >= TESTS * self.place_count() && self.untried() == 0
@@ -285,7 +285,7 @@ impl BumpMap {
     }
 }
 
-/// Returns how many bits have to agree, so that among all pairs of so many places few agree by
+/// Returns how many bits have to agree, so that among all pairs of `places` places few agree by
 /// chance.
 fn enough_bits(places: usize) -> f64 {
     let pairs = places as f64 * places as f64 / 2.0;
@@ -315,12 +315,12 @@ mod tests {
     fn a_way_back_leads_back() {
         let map = learned(&[(North, true), (North, false), (South, true)]).unwrap();
         assert_eq!((map.place_count(), map.here()), (2, map.start()));
-        let Way::To(north) = map.way(map.start(), North) else {
+        let BumpWay::To(north) = map.way(map.start(), North) else {
             panic!("the way was gone");
         };
-        assert_eq!(map.way(north, North), Way::Closed);
-        assert_eq!(map.way(north, South), Way::To(map.start()));
-        assert_eq!(map.way(north, East), Way::Untried);
+        assert_eq!(map.way(north, North), BumpWay::Closed);
+        assert_eq!(map.way(north, South), BumpWay::To(map.start()));
+        assert_eq!(map.way(north, East), BumpWay::Untried);
         assert_eq!(map.untried(), 3 + 2);
     }
 

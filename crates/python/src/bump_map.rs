@@ -1,5 +1,5 @@
 use pyo3::prelude::*;
-use tolman_maps::bump_map::{BumpMap, BumpMove, Way};
+use tolman_maps::bump_map::{BumpMap, BumpMove, BumpWay};
 
 use crate::errors::{refused, wrong};
 use crate::maze::direction;
@@ -66,8 +66,8 @@ impl PyBumpMap {
         self.0.predicted()
     }
 
-    /// Returns whether the map is complete and has predicted so many moves since that it is
-    /// probably right.
+    /// Returns whether the map is complete and probably right: it has predicted the last moves,
+    /// eight for each place.
     #[getter]
     fn is_tested(&self) -> bool {
         self.0.is_tested()
@@ -76,17 +76,17 @@ impl PyBumpMap {
     /// Returns what is known of a way: `"untried"`, `"closed"` or `"open"`.
     fn way(&self, place: u32, action: &str) -> PyResult<&'static str> {
         Ok(match self.known(place, action)? {
-            Way::Untried => "untried",
-            Way::Closed => "closed",
-            Way::To(_) => "open",
+            BumpWay::Untried => "untried",
+            BumpWay::Closed => "closed",
+            BumpWay::To(_) => "open",
         })
     }
 
     /// Returns the place to which an open way leads, otherwise `None`.
     fn beyond(&self, place: u32, action: &str) -> PyResult<Option<u32>> {
         Ok(match self.known(place, action)? {
-            Way::To(next) => Some(next),
-            Way::Untried | Way::Closed => None,
+            BumpWay::To(next) => Some(next),
+            BumpWay::Untried | BumpWay::Closed => None,
         })
     }
 
@@ -101,11 +101,13 @@ impl PyBumpMap {
     ///
     /// # Errors
     /// A `ValueError` that names the parameter, if there is no such place or direction.
-    fn known(&self, place: u32, action: &str) -> PyResult<Way> {
+    fn known(&self, place: u32, action: &str) -> PyResult<BumpWay> {
         let action = direction("action", action)?;
         match self.0.places().any(|known| known == place) {
             true => Ok(self.0.way(place, action)),
-            false => Err(wrong(format!("place is {place}, which is none of places"))),
+            false => Err(wrong(format!(
+                "place is {place}, which is not among places"
+            ))),
         }
     }
 }

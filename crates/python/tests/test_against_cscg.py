@@ -4,6 +4,7 @@ CSCG names the folder with their public code (github.com/vicariousinc/naturecomm
 are at random, the same for both; a map is exact if it is complete and tells every walk as it would truly be.
 """
 
+import math
 import os
 import sys
 import time
@@ -17,7 +18,9 @@ ACTIONS = ["north", "east", "south", "west"]
 STEPS = [(0, 1), (1, 0), (0, -1), (-1, 0)]
 # Every CSCG walk has some minutes of training: CSCG_MAZES changes how many mazes are tried.
 MAZES = int(os.environ.get("CSCG_MAZES", "5"))
-CLONES, RESTARTS = 20, 3
+RESTARTS = 3
+# As many clones of each look as the authors give a room of 6 x 8 cells, for its size.
+CLONES = 70 / 48
 
 folder = os.environ.get("CSCG")
 if folder is None:
@@ -112,36 +115,43 @@ def theirs(world, walk, seed):
     kinds = {look: kind for kind, look in enumerate(sorted(set(looks)))}
     x = np.array([kinds[look] for look in looks], dtype=np.int64)
     a = np.append(actions, 0).astype(np.int64)
-    begun, best = time.process_time(), None
-    for restart in range(RESTARTS):
-        np.random.seed(seed * RESTARTS + restart)
-        model = chmm.CHMM(n_clones=np.full(len(kinds), CLONES, dtype=np.int64), x=x, a=a, pseudocount=2e-3, seed=seed * RESTARTS + restart)
-        model.learn_em_T(x, a, n_iter=200, term_early=True)
+    clones = np.full(len(kinds), math.ceil(CLONES * world.maze.width * world.maze.height), dtype=np.int64)
+    begun, found = time.process_time(), []
+    for restart in range(seed * RESTARTS, (seed + 1) * RESTARTS):
+        model = chmm.CHMM(n_clones=clones, x=x, a=a, pseudocount=2e-3, seed=restart)
+        model.learn_em_T(x, a, n_iter=1000)
         model.pseudocount = 0.0
         model.learn_viterbi_T(x, a, n_iter=100)
-        bits = float(np.mean(model.bps(x, a)))
-        if best is None or bits < best[0]:
-            best = bits, model.decode(x, a)[1]
+        states = model.decode(x, a)[1]
+        found.append((is_exact_but_for_duplicates(world, actions, states, cells), len(set(states)), purity(states, cells)))
     seconds = time.process_time() - begun
-    states = best[1]
-    counts = {}
-    for at, action in enumerate(actions):
-        counts.setdefault((states[at], action), Counter())[states[at + 1]] += 1
-    bumped = {}
-    for at, action in enumerate(actions):
-        bumped.setdefault((states[at], action), Counter())[not moved[at]] += 1
+    # The judge chooses the best, which the model could not.
+    return *max(found, key=lambda run: (run[0], run[2])), seconds
 
-    def beyond(place, action):
-        # A wall is where the robot bumped more often than not: that is told apart by the judge, not by the model.
-        if bumped[place, action].most_common(1)[0][0]:
-            return None
-        return counts[place, action].most_common(1)[0][0]
 
-    return world.is_exact(cells[-1], states[-1], beyond), len(set(states)), purity(states, cells), seconds
+def is_exact_but_for_duplicates(world, actions, states, cells):
+    """Return whether each state stands for one cell, leads where that leads, and together they tell all ways.
+
+    Most often several states stand for one cell, each with some ways untried. That is not held against the model."""
+    cell_of = dict(zip(states, cells))
+    if any(cell_of[state] != cell for state, cell in zip(states, cells)):
+        return False
+    targets = {}
+    for at, action in enumerate(actions):
+        targets.setdefault((states[at], action), Counter())[states[at + 1]] += 1
+    told = {}
+    for (state, action), count in targets.items():
+        told.setdefault((cell_of[state], action), set()).add(cell_of[count.most_common(1)[0][0]])
+    everywhere = {(x, y) for x in range(world.maze.width) for y in range(world.maze.height)}
+    truly = {(cell, action): {world.beside(cell, action) or cell} for cell in everywhere for action in range(4)}
+    return told == truly
 
 
 @pytest.fixture(scope="module")
 def table():
+    # Compiles what is compiled at the first call.
+    tiny = World(Maze.generate("braided", 2, 2, seed=1), seen=True)
+    theirs(tiny, tiny.walk(100, 1), 1)
     rows = []
     for side, moves, seen in [(4, 2000, True), (4, 2000, False), (6, 5000, True), (6, 5000, False)]:
         found = {"ours": [], "theirs": []}

@@ -14,13 +14,14 @@ EXAMPLE = ROOT / "crates" / "python" / "examples" / "learn_a_maze.py"
 
 def test_the_page_runs(monkeypatch, capsys):
     pieces = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.S)
-    assert len(pieces) == 2
+    assert len(pieces) == 3
     monkeypatch.chdir(ROOT)
     names: dict = {}
     for piece in pieces:
         exec(compile(piece, str(PAGE), "exec"), names)
     assert names["nearest"].shape == (5, 2)
-    assert "(1000, 2)" in capsys.readouterr().out
+    told = capsys.readouterr().out
+    assert "(1000, 2)" in told and "64 places, 0 ways untried" in told
 
 
 @pytest.mark.parametrize("arguments", [[], [str(ROOT / "mazes" / "star.maze")]])

@@ -3,7 +3,7 @@ use alloc::vec;
 
 use tolman_maze::Direction;
 
-use super::{BumpMap, Way};
+use super::{BumpMap, BumpWay};
 
 impl BumpMap {
     /// Returns where to go to learn more: to the nearest way that nobody tried, straight on where
@@ -21,9 +21,9 @@ impl BumpMap {
             let begin = first.get(place as usize).copied().flatten();
             for action in self.preferred() {
                 match self.folded.way(place, action) {
-                    Way::Closed => {}
-                    Way::Untried => return begin.unwrap_or(action),
-                    Way::To(next) => {
+                    BumpWay::Closed => {}
+                    BumpWay::Untried => return begin.unwrap_or(action),
+                    BumpWay::To(next) => {
                         if let Some(slot @ None) = first.get_mut(next as usize)
                             && next != here
                         {
@@ -43,11 +43,13 @@ impl BumpMap {
         [ahead, ahead.left(), ahead.right(), ahead.opposite()]
     }
 
-    /// Returns the next way in turn, clockwise from the one that the robot tried last at this place,
-    /// or the one after that, by chance. Who takes the next one at each place tries every way again
-    /// and again (the rotor-router; Priezzhev, Dhar, Dhar, Krishnamurthy, *Eulerian walkers as a
-    /// model of self-organized criticality*, 1996), but on a wrong map it could go round in the
-    /// world for ever without a contradiction.
+    /// Returns the next way in turn, clockwise from the one that the robot tried last at this
+    /// place, or the one after that, by chance.
+    ///
+    /// Who takes the next one at each place tries every way again and again (the rotor-router;
+    /// Priezzhev, Dhar, Dhar, Krishnamurthy, *Eulerian walkers as a model of self-organized
+    /// criticality*, 1996). But on a wrong map it could go round in the world forever without a
+    /// contradiction.
     fn in_turn(&self) -> Direction {
         let before = self.tried_last.get(self.here() as usize);
         let next = before.copied().unwrap_or(self.last).right();

@@ -1,6 +1,6 @@
 use alloc::vec::Vec;
 
-use super::graph::{Graph, Way};
+use super::graph::{BumpWay, Graph};
 
 /// By how many bits it is surprising that two places agree, if they were not the same: −log₂ of how
 /// often a way is closed, or open, or a place has a look.
@@ -29,9 +29,9 @@ impl Evidence {
             looks.push(graph.look(place));
             for (count, way) in counts.iter_mut().zip(graph.ways(place)) {
                 match way {
-                    Way::Untried => {}
-                    Way::Closed => count[0] += 1,
-                    Way::To(_) => count[1] += 1,
+                    BumpWay::Untried => {}
+                    BumpWay::Closed => count[0] += 1,
+                    BumpWay::To(_) => count[1] += 1,
                 }
             }
         }

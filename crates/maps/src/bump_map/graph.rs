@@ -6,7 +6,7 @@ use super::evidence::Evidence;
 
 /// What is known of one of the four ways out of a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
+pub enum BumpWay {
     /// Nobody tried it.
     Untried,
     /// The robot bumped, and stayed.
@@ -30,17 +30,23 @@ pub(super) struct Graph {
 
 #[derive(Clone, Copy, Debug)]
 struct Place {
-    ways: [Way; 4],
+    ways: [BumpWay; 4],
     /// What the place looks like.
     look: u32,
-    /// The place that it turned out to be; itself as long as it is none.
+    /// The place that it turned out to be; itself as long as it is no other.
     same_as: u32,
 }
 
 #[derive(Clone, Copy, Debug)]
 enum Change {
-    Way { place: u32, action: usize, was: Way },
-    Same { place: u32 },
+    Way {
+        place: u32,
+        action: usize,
+        was: BumpWay,
+    },
+    Same {
+        place: u32,
+    },
 }
 
 /// Two places that have to be one, and the way from both by which the merge came here.
@@ -55,7 +61,7 @@ impl Graph {
     pub(super) fn push(&mut self, look: u32) -> u32 {
         let id = self.places.len() as u32;
         self.places.push(Place {
-            ways: [Way::Untried; 4],
+            ways: [BumpWay::Untried; 4],
             look,
             same_as: id,
         });
@@ -97,15 +103,15 @@ impl Graph {
 
     /// Returns the ways out of a place, by the index of their direction. They may lead to what
     /// turned out to be another place.
-    pub(super) fn ways(&self, place: u32) -> [Way; 4] {
+    pub(super) fn ways(&self, place: u32) -> [BumpWay; 4] {
         let place = self.places.get(place as usize);
-        place.map_or([Way::Untried; 4], |place| place.ways)
+        place.map_or([BumpWay::Untried; 4], |place| place.ways)
     }
 
     /// Returns what a way is and to which place it leads.
-    pub(super) fn way(&self, place: u32, action: Direction) -> Way {
+    pub(super) fn way(&self, place: u32, action: Direction) -> BumpWay {
         match self.ways(self.place(place))[action.index()] {
-            Way::To(id) => Way::To(self.place(id)),
+            BumpWay::To(id) => BumpWay::To(self.place(id)),
             way => way,
         }
     }
@@ -113,9 +119,9 @@ impl Graph {
     /// Learns that a way is closed; `false` if it is known to lead somewhere.
     pub(super) fn close(&mut self, place: u32, action: Direction) -> bool {
         match self.way(place, action) {
-            Way::To(_) => return false,
-            Way::Closed => {}
-            Way::Untried => self.set(self.place(place), action.index(), Way::Closed),
+            BumpWay::To(_) => return false,
+            BumpWay::Closed => {}
+            BumpWay::Untried => self.set(self.place(place), action.index(), BumpWay::Closed),
         }
         true
     }
@@ -125,9 +131,9 @@ impl Graph {
     pub(super) fn join(&mut self, from: u32, action: Direction, to: u32) -> bool {
         for (place, action, other) in [(from, action, to), (to, action.opposite(), from)] {
             match self.way(place, action) {
-                Way::Closed => return false,
-                Way::Untried => self.set(self.place(place), action.index(), Way::To(other)),
-                Way::To(known) => {
+                BumpWay::Closed => return false,
+                BumpWay::Untried => self.set(self.place(place), action.index(), BumpWay::To(other)),
+                BumpWay::To(known) => {
                     if self.merge([known, other], &Evidence::NONE).is_none() {
                         return false;
                     }
@@ -165,12 +171,14 @@ impl Graph {
             let (ways, others) = (self.ways(kept), self.ways(gone));
             for (action, pair) in ways.into_iter().zip(others).enumerate() {
                 match pair {
-                    (Way::Untried, _) | (_, Way::Untried) => {}
-                    (Way::Closed, Way::Closed) => bits += evidence.of_closed(action),
+                    (BumpWay::Untried, _) | (_, BumpWay::Untried) => {}
+                    (BumpWay::Closed, BumpWay::Closed) => bits += evidence.of_closed(action),
                     // The way by which the merge came here leads back by itself.
-                    (Way::To(_), Way::To(_)) if back == Some(action) => {}
-                    (Way::To(_), Way::To(_)) => bits += evidence.of_open(action),
-                    (Way::Closed, Way::To(_)) | (Way::To(_), Way::Closed) => return None,
+                    (BumpWay::To(_), BumpWay::To(_)) if back == Some(action) => {}
+                    (BumpWay::To(_), BumpWay::To(_)) => bits += evidence.of_open(action),
+                    (BumpWay::Closed, BumpWay::To(_)) | (BumpWay::To(_), BumpWay::Closed) => {
+                        return None;
+                    }
                 }
             }
             self.unite(kept, gone);
@@ -188,8 +196,8 @@ impl Graph {
         }
         for (action, pair) in ways.into_iter().zip(others).enumerate() {
             match pair {
-                (Way::Untried, way) if way != Way::Untried => self.set(kept, action, way),
-                (Way::To(one), Way::To(other)) => self.pending.push(Pair {
+                (BumpWay::Untried, way) if way != BumpWay::Untried => self.set(kept, action, way),
+                (BumpWay::To(one), BumpWay::To(other)) => self.pending.push(Pair {
                     places: [one, other],
                     back: Some((action + 2) % 4),
                 }),
@@ -198,7 +206,7 @@ impl Graph {
         }
     }
 
-    fn set(&mut self, place: u32, action: usize, way: Way) {
+    fn set(&mut self, place: u32, action: usize, way: BumpWay) {
         if let Some(known) = self.places.get_mut(place as usize)
             && let Some(known) = known.ways.get_mut(action)
         {
@@ -239,7 +247,7 @@ impl Graph {
         for id in 0..self.places.len() as u32 {
             let same_as = self.place(id);
             let ways = self.ways(id).map(|way| match way {
-                Way::To(to) => Way::To(self.place(to)),
+                BumpWay::To(to) => BumpWay::To(self.place(to)),
                 way => way,
             });
             if let Some(place) = self.places.get_mut(id as usize) {

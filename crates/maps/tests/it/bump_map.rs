@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use tolman_maps::bump_map::{BumpMap, BumpMove, Way};
+use tolman_maps::bump_map::{BumpMap, BumpMove, BumpWay};
 use tolman_maze::{Braided, Cell, Direction, Maze};
 
 fn maze(side: u16, share: f64, seed: u64) -> Maze {
@@ -56,13 +56,13 @@ proptest! {
         let mut place = map.start();
         for step in walk {
             match map.way(place, step.action) {
-                Way::Closed => prop_assert!(!step.moved),
-                Way::To(next) => {
+                BumpWay::Closed => prop_assert!(!step.moved),
+                BumpWay::To(next) => {
                     prop_assert!(step.moved);
-                    prop_assert_eq!(map.way(next, step.action.opposite()), Way::To(place));
+                    prop_assert_eq!(map.way(next, step.action.opposite()), BumpWay::To(place));
                     place = next;
                 }
-                Way::Untried => prop_assert!(false, "a way that was tried"),
+                BumpWay::Untried => prop_assert!(false, "a way that was tried"),
             }
         }
         prop_assert_eq!(place, map.here());
@@ -83,8 +83,8 @@ proptest! {
         for _ in 0..1000 {
             let action = Direction::ALL[rng.random_range(0..4)];
             match (map.way(place, action), maze.beside(at, action)) {
-                (Way::Closed, None) => {}
-                (Way::To(next), Some(beside)) => (place, at) = (next, beside),
+                (BumpWay::Closed, None) => {}
+                (BumpWay::To(next), Some(beside)) => (place, at) = (next, beside),
                 told => prop_assert!(false, "{:?} of {}, to the {}", told, at, action),
             }
         }

@@ -5,7 +5,7 @@ from typing import Any, final
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["Learner", "Map", "Maze", "Robot", "cheapest_path", "learn", "map_log", "systems"]
+__all__ = ["BumpMap", "Learner", "Map", "Maze", "Robot", "cheapest_path", "learn", "map_log", "systems"]
 
 @final
 class Learner:
