@@ -120,10 +120,13 @@ fn flash() -> Result<u64> {
     Ok(text + data)
 }
 
+/// Returns a call of cargo in the package's folder. What is compiled incrementally is other code,
+/// which needs more.
 fn here(arguments: &str) -> Result<Command> {
     let mut command = cargo(arguments);
     command
         .current_dir(root().join(FOLDER))
+        .env("CARGO_INCREMENTAL", "0")
         .env("CARGO_TARGET_DIR", target_folder()?);
     Ok(command)
 }

@@ -161,6 +161,22 @@ mod tests {
     }
 
     #[test]
+    fn each_count_is_a_part_of_the_one_before() {
+        let looks = |[different, deceiving, followed, repeating]: [u32; 4]| Looks {
+            different,
+            deceiving,
+            followed,
+            repeating,
+            ..Looks::default()
+        };
+        assert!(looks([4, 3, 2, 1]).is_consistent());
+        assert!(looks([2; 4]).is_consistent());
+        for counts in [[2, 3, 2, 1], [4, 2, 3, 1], [4, 3, 1, 2]] {
+            assert!(!looks(counts).is_consistent(), "{counts:?}");
+        }
+    }
+
+    #[test]
     fn where_rooms_repeat_more_places_have_to_agree_and_in_the_end_none_is_enough() {
         let mut looks = Looks {
             kinds: 100,

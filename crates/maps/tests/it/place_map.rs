@@ -211,6 +211,7 @@ fn groups_count_as_their_scaling_says() {
     // Mean squared distance between records, by group.
     let spread = |scaling| {
         let table = FeatureTable::of(&records, &small(scaling), ImageForm::Pixels).unwrap();
+        assert_eq!(table.len(), records.len());
         let rows: Vec<&[f32]> = (0..200).map(|row| table.row(row).unwrap()).collect();
         let pairs = || rows.iter().flat_map(|a| rows.iter().map(move |b| (a, b)));
         [0..3600, 3600..3602, 3602..3618].map(|part| {

@@ -57,4 +57,15 @@ mod tests {
         assert!(rival.at_worst(0.9) < 0.0);
         assert!(rival.at_worst(1.1) > 0.0);
     }
+
+    #[test]
+    fn its_worst_is_the_mean_and_standard_errors() {
+        let mut rival = Rival::new(Cell::new(0, 0));
+        for more in [1.0, 5.0] {
+            rival.add(more);
+        }
+        // Mean 3, variance 4, of two mazes.
+        assert!((rival.at_worst(1.0) - 3.0 - f32::sqrt(2.0)).abs() < 1e-6);
+        assert!((rival.at_worst(-2.0) - 3.0 + 2.0 * f32::sqrt(2.0)).abs() < 1e-6);
+    }
 }

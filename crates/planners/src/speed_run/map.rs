@@ -188,8 +188,7 @@ impl<const N: usize> SpeedRunMap<N> {
                 }
                 let takes = lengths.get(cells).copied().unwrap_or(NEVER);
                 let arrives = time.saturating_add(takes);
-                let whole = estimate.of_run(arrives.into(), to.cell);
-                if (arrives < *best) & (whole <= estimate.at_most) {
+                if arrives < *best && estimate.of_run(arrives.into(), to.cell) <= estimate.at_most {
                     *best = arrives;
                     if let Some(waiting) =
                         self.waiting.as_flattened_mut().get_mut(to.cell % (N * N))
@@ -222,9 +221,10 @@ impl<const N: usize> SpeedRunMap<N> {
     #[inline(always)]
     fn reach(&mut self, node: Node, time: u32, estimate: &Estimate<N>, times: &SpeedRunTimes<N>) {
         let states = self.times.as_flattened_mut().as_flattened_mut();
-        let whole = estimate.of_run(time, node.cell);
         if let Some(best) = states.get_mut(node.number)
-            && (time < u32::from(*best)) & (whole <= estimate.at_most)
+            && time < u32::from(*best)
+            && let whole = estimate.of_run(time, node.cell)
+            && whole <= estimate.at_most
         {
             let time = time as u16;
             *best = time;

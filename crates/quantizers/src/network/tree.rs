@@ -398,3 +398,26 @@ fn widest<S: Scalar>(slots: &[u32], dimension: usize, prototypes: &Prototypes<S>
     }
     widest.0
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_that_wander_leave_no_crowd_of_empty_leaves() {
+        let mut prototypes = Prototypes::<f64>::new(1);
+        for _ in 0..200 {
+            let slot = prototypes.push();
+            prototypes.put(slot, 0, slot as f64);
+        }
+        let mut tree = Tree::new(&prototypes, 0..200, 200);
+        for step in 1..40 {
+            for slot in 0..200_usize {
+                prototypes.put(slot, 0, (slot + 200 * step) as f64);
+                tree.follow(slot, &prototypes);
+            }
+            assert_eq!(tree.len, 200);
+            assert!(tree.leaves.len() <= 200 / 4 + 9, "{}", tree.leaves.len());
+        }
+    }
+}

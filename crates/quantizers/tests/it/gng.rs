@@ -370,6 +370,27 @@ fn presets_are_those_of_their_papers() {
 }
 
 #[test]
+fn an_error_at_the_threshold_makes_no_unit() {
+    for gate in [
+        GrowthGate::MeanError { threshold: 0.0 },
+        GrowthGate::Rate { threshold: 0.0 },
+    ] {
+        let mut config = GngConfig::fritzke();
+        (config.gate, config.growth_period, config.neighbour_rate) = (gate, 1, 0.0);
+        let mut gng = Gng::<f64>::new(1, config).unwrap();
+        // Both units are where the inputs are, so there is no error.
+        for input in [0.0, 1.0].repeat(20) {
+            gng.observe(&[input]).unwrap();
+        }
+        assert_eq!(gng.network().len(), 2, "{gate:?}");
+        for _ in 0..20 {
+            gng.observe(&[0.5]).unwrap();
+        }
+        assert!(gng.network().len() > 2, "{gate:?}");
+    }
+}
+
+#[test]
 fn a_network_counts_its_steps_and_names_its_units() {
     let mut gng = Gng::<f64>::new(1, GngConfig::fritzke()).unwrap();
     for input in 0..7_u32 {
