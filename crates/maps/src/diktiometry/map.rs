@@ -198,15 +198,18 @@ impl Diktiometry {
     fn flawed_frame(&self) -> Option<Flaw> {
         let mut all = (0..).map(FrameId).zip(&self.reference.frames);
         all.find_map(|(id, frame)| {
-            let sorted = frame.relations.is_sorted_by(|a, b| a.to < b.to);
-            let mutual = frame.relations.iter().all(|relation| {
-                let back = self.reference.relation(relation.to, id);
-                back.is_some_and(|back| {
-                    back.position == -relation.position && back.envelope == -relation.envelope
-                })
+            let sorted = frame.above.is_sorted_by(|a, b| a.to < b.to)
+                && frame.below.is_sorted_by(|a, b| a < b);
+            let above = frame.above.iter().all(|relation| {
+                let other = self.reference.frames.get(relation.to.index());
+                id < relation.to && other.is_some_and(|other| other.below.contains(&id))
             });
-            let used = !frame.places.is_empty() || frame.relations.is_empty();
-            (!(sorted && mutual && used)).then_some(Flaw::OneSided(id))
+            let below = frame.below.iter();
+            let below = below
+                .copied()
+                .all(|other| other < id && self.reference.relation(other, id).is_some());
+            let used = !frame.places.is_empty() || !frame.is_related();
+            (!(sorted && above && below && used)).then_some(Flaw::OneSided(id))
         })
     }
 }

@@ -1,4 +1,6 @@
-use super::{Diktiometry, Frame, Link, Place, Signature};
+use alloc::vec::Vec;
+
+use super::{Diktiometry, Exits, Frame, Link, Place, Signature, TrackEntry};
 
 impl Diktiometry {
     /// Returns the memory of the present places, links and frames, bytes, without the grids of
@@ -14,17 +16,28 @@ impl Diktiometry {
 }
 
 fn of_place(place: &Place) -> usize {
-    let histories = place.histories.iter();
     size_of_val(place)
         + size_of_val(place.estims.as_slice())
         + place.views.iter().map(of_view).sum::<usize>()
         + size_of_val(place.outgoing.as_slice())
         + size_of_val(place.incoming.as_slice())
         + size_of_val(place.blocked.as_slice())
-        + histories
-            .map(|one| size_of_val(one.as_slice()))
-            .sum::<usize>()
+        + of_exits(&place.exits)
+        + place.histories.iter().map(of_history).sum::<usize>()
         + size_of_val(place.notes.as_slice())
+}
+
+fn of_history(history: &Vec<TrackEntry>) -> usize {
+    let doubts = history.iter();
+    let doubts = doubts.map(|entry| size_of_val(entry.doubts.as_slice()));
+    size_of_val(history) + size_of_val(history.as_slice()) + doubts.sum::<usize>()
+}
+
+fn of_exits(exits: &Exits) -> usize {
+    match exits {
+        Exits::Unknown => 0,
+        Exits::Seen(actions) => size_of_val(actions.as_slice()),
+    }
 }
 
 fn of_view(view: &Signature) -> usize {
@@ -38,5 +51,6 @@ fn of_link(link: &Link) -> usize {
 fn of_frame(frame: &Frame) -> usize {
     size_of_val(frame)
         + size_of_val(frame.places.as_slice())
-        + size_of_val(frame.relations.as_slice())
+        + size_of_val(frame.above.as_slice())
+        + size_of_val(frame.below.as_slice())
 }

@@ -4,6 +4,7 @@
 mod search;
 
 use alloc::vec::Vec;
+use core::cmp::Ordering;
 
 use tolman_geom::PointBox;
 
@@ -16,18 +17,24 @@ pub(super) use search::{Reached, search};
 pub struct Frame {
     /// Places whose position is given in the frame, in order of their ids.
     pub places: Vec<PlaceId>,
-    /// Relations to other frames, in order of the other frames' ids. Each relation is stored on
-    /// both sides.
-    pub relations: Vec<Relation>,
+    /// Relations to frames of higher ids, in order of these ids.
+    pub above: Vec<Relation>,
+    /// Related frames of lower ids, in order. Each keeps the relation.
+    pub below: Vec<FrameId>,
     /// Number of traversals of each cell of the frame's area.
     pub grid: CoverageGrid,
 }
 
 impl Frame {
-    /// Returns the index of the relation to a frame, or the index at which it would be inserted.
+    /// Returns the index of the relation to a frame of a higher id, or the index at which it would
+    /// be inserted.
     fn find(&self, to: FrameId) -> Result<usize, usize> {
-        self.relations
-            .binary_search_by_key(&to, |relation| relation.to)
+        self.above.binary_search_by_key(&to, |relation| relation.to)
+    }
+
+    /// Returns whether the frame is related to any other.
+    pub(super) const fn is_related(&self) -> bool {
+        !self.above.is_empty() || !self.below.is_empty()
     }
 }
 
@@ -42,6 +49,18 @@ pub struct Relation {
     pub envelope: PointBox,
     /// Number of estimates.
     pub estimates: u32,
+}
+
+impl Relation {
+    /// Returns the relation as seen from the other frame.
+    fn back_to(self, from: FrameId) -> Self {
+        Self {
+            to: from,
+            position: -self.position,
+            envelope: -self.envelope,
+            ..self
+        }
+    }
 }
 
 /// Two estimates of one displacement that exclude each other. A bound was broken, or two places
@@ -67,11 +86,26 @@ impl ReferenceGraph {
         &self.frames
     }
 
-    /// Returns the relation of `to` to `from`, or `None` if it is not known.
+    /// Returns the relation of `to` to `from`, or `None` if it is not known. O(log degree).
     #[must_use]
-    pub fn relation(&self, from: FrameId, to: FrameId) -> Option<&Relation> {
-        let frame = self.frames.get(from.index())?;
-        frame.find(to).ok().map(|at| &frame.relations[at])
+    pub fn relation(&self, from: FrameId, to: FrameId) -> Option<Relation> {
+        let frame = self.frames.get(from.min(to).index())?;
+        let relation = frame.above[frame.find(from.max(to)).ok()?];
+        Some(if from < to {
+            relation
+        } else {
+            relation.back_to(to)
+        })
+    }
+
+    /// Returns the relations of a frame to others, in order of their ids.
+    pub fn relations(&self, from: FrameId) -> impl Iterator<Item = Relation> + Clone {
+        let frame = self.frames.get(from.index()).into_iter();
+        frame.flat_map(move |frame| {
+            let below = frame.below.iter();
+            let below = below.filter_map(move |to| self.relation(from, *to));
+            below.chain(frame.above.iter().copied())
+        })
     }
 
     /// Returns the position of the origin of `to` in `from` by the relation between the two, m, or
@@ -111,14 +145,22 @@ impl ReferenceGraph {
         estimate: PointBox,
     ) -> Result<(), Excluded> {
         let allowed = self.allows(from, to, estimate);
-        if from != to {
-            self.relate_one_way(from, to, estimate);
-            self.relate_one_way(to, from, -estimate);
+        match from.cmp(&to) {
+            Ordering::Less => self.relate_upwards(from, to, estimate),
+            Ordering::Equal => {}
+            Ordering::Greater => self.relate_upwards(to, from, -estimate),
         }
         allowed
     }
 
-    fn relate_one_way(&mut self, from: FrameId, to: FrameId, estimate: PointBox) {
+    /// Takes in an estimate of the position of `to`, the frame of the higher id.
+    fn relate_upwards(&mut self, from: FrameId, to: FrameId, estimate: PointBox) {
+        let below = &mut self.frames[to.index()].below;
+        if let Err(at) = below.binary_search(&from) {
+            // Few relations each, but of many frames: no room to spare.
+            below.reserve_exact(1);
+            below.insert(at, from);
+        }
         let frame = &mut self.frames[from.index()];
         let at = frame.find(to).unwrap_or_else(|at| {
             let new = Relation {
@@ -127,10 +169,11 @@ impl ReferenceGraph {
                 envelope: estimate,
                 estimates: 0,
             };
-            frame.relations.insert(at, new);
+            frame.above.reserve_exact(1);
+            frame.above.insert(at, new);
             at
         });
-        let relation = &mut frame.relations[at];
+        let relation = &mut frame.above[at];
         if let Some(both) = relation.position.intersection(estimate) {
             relation.position = both;
         }
@@ -140,21 +183,22 @@ impl ReferenceGraph {
 
     /// Widens a relation to the envelope of all estimates, because one of the estimates was wrong.
     pub(super) fn open(&mut self, from: FrameId, to: FrameId) {
-        for (from, to) in [(from, to), (to, from)] {
-            let frame = &mut self.frames[from.index()];
-            if let Ok(at) = frame.find(to) {
-                frame.relations[at].position = frame.relations[at].envelope;
-            }
+        let frame = &mut self.frames[from.min(to).index()];
+        if let Ok(at) = frame.find(from.max(to)) {
+            frame.above[at].position = frame.above[at].envelope;
         }
     }
 
     /// Removes all relations of a frame without places.
     pub(super) fn clear(&mut self, id: FrameId) {
-        let relations = core::mem::take(&mut self.frames[id.index()].relations);
-        for relation in relations {
-            let others = &mut self.frames[relation.to.index()].relations;
-            others.retain(|other| other.to != id);
+        let Frame { above, below, .. } = core::mem::take(&mut self.frames[id.index()]);
+        for relation in above {
+            let others = &mut self.frames[relation.to.index()].below;
+            others.retain(|other| *other != id);
         }
-        self.frames[id.index()].grid = CoverageGrid::default();
+        for other in below {
+            let others = &mut self.frames[other.index()].above;
+            others.retain(|relation| relation.to != id);
+        }
     }
 }

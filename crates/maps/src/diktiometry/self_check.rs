@@ -256,7 +256,7 @@ impl Observer {
     fn is_crowded(&self, id: PlaceId) -> bool {
         let (map, least) = (&self.map, self.config.least_distance());
         let (frame, here) = map.site(id);
-        let often = map.frame(frame).relations.iter();
+        let often = map.reference.relations(frame);
         let mut often = often.filter(|relation| relation.estimates > 1);
         often.any(|relation| {
             let places = &map.frame(relation.to).places;

@@ -1,7 +1,9 @@
 //! The memory of maps is that of all their parts.
 
 use tolman_geom::Point;
-use tolman_maps::diktiometry::{Diktiometry, Frame, FrameId, LinkId, Place, PlaceId, Relation};
+use tolman_maps::diktiometry::{
+    Action, Diktiometry, Exits, Frame, FrameId, LinkId, Place, PlaceId, Relation, TrackEntry,
+};
 use tolman_maps::mslst_graph::{ActionEdge, GraphMapper, MslstGraph, Node, NodeZone};
 use tolman_maps::scan_map::{ChartParts, ScanChart, ScanPlace, WallGrid};
 use tolman_maps::wall_map::{CellRay, ClosedCells, WallMap};
@@ -23,9 +25,10 @@ fn recounted(map: &Diktiometry) -> usize {
         .iter()
         .filter(|frame| !frame.places.is_empty())
         .collect();
+    let histories = || places.iter().flat_map(|place| &place.histories);
     let views = || places.iter().flat_map(|place| &place.views);
     let links = || map.paths.links().map(|(_, link)| link);
-    let in_places: [usize; 8] = [
+    let in_places: [usize; 11] = [
         size_of::<Place>() * places.len(),
         places.iter().map(|place| size_of_val(&*place.estims)).sum(),
         views().map(size_of_val).sum(),
@@ -39,11 +42,13 @@ fn recounted(map: &Diktiometry) -> usize {
             .iter()
             .map(|place| size_of_val(&*place.blocked))
             .sum(),
-        places
-            .iter()
-            .flat_map(|place| &place.histories)
-            .map(|one| size_of_val(&**one))
-            .sum(),
+        all::<Vec<TrackEntry>>(places.iter().map(|place| place.histories.len())),
+        all::<TrackEntry>(histories().map(Vec::len)),
+        all::<PlaceId>(histories().flatten().map(|entry| entry.doubts.len())),
+        all::<Action>(places.iter().filter_map(|place| match &place.exits {
+            Exits::Unknown => None,
+            Exits::Seen(actions) => Some(actions.len()),
+        })),
         places.iter().map(|place| size_of_val(&*place.notes)).sum(),
     ];
     let in_links: usize = links()
@@ -52,7 +57,8 @@ fn recounted(map: &Diktiometry) -> usize {
     let in_frames = [
         size_of::<Frame>() * frames.len(),
         all::<PlaceId>(frames.iter().map(|frame| frame.places.len())),
-        all::<Relation>(frames.iter().map(|frame| frame.relations.len())),
+        all::<Relation>(frames.iter().map(|frame| frame.above.len())),
+        all::<FrameId>(frames.iter().map(|frame| frame.below.len())),
     ];
     in_places.iter().sum::<usize>() + in_links + in_frames.iter().sum::<usize>()
 }

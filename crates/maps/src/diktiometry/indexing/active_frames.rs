@@ -50,7 +50,7 @@ pub(crate) fn moved(
     let mut next: Vec<ActiveFrame> = carried.collect();
     next.push(here);
     let around = next.iter().flat_map(|frame| {
-        let relations = map.frame(frame.frame).relations.iter();
+        let relations = map.reference.relations(frame.frame);
         relations.map(|relation| ActiveFrame {
             frame: relation.to,
             robot: frame.robot - relation.position,

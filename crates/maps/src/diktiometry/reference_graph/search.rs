@@ -38,9 +38,9 @@ pub(crate) fn search(
         if matches!(ways[frame.index()], Way::Reached(_)) {
             continue; // It was reached by a narrower way.
         }
-        let relations = &graph.frames[frame.index()].relations;
+        let relations = graph.relations(frame);
         let positions = relations
-            .iter()
+            .clone()
             .filter_map(|relation| match ways[relation.to.index()] {
                 Way::Reached(there) => Some(reached[there as usize].position - relation.position),
                 Way::Unknown | Way::Seen(_) => None,

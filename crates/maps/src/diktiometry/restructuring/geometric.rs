@@ -22,10 +22,10 @@ pub(super) struct Pair {
 
 /// Returns the places of nearby frames, with their positions in the frame of `place`, m.
 pub(super) fn around(map: &Diktiometry, place: PlaceId) -> Vec<(PlaceId, PointBox)> {
-    let relations = &map.frame(map.place(place).frame).relations;
-    let places = relations.iter().flat_map(|relation| {
+    let relations = map.reference.relations(map.place(place).frame);
+    let places = relations.flat_map(|relation| {
         let places = map.frame(relation.to).places.iter();
-        places.map(|&place| (place, relation.position + map.place(place).position))
+        places.map(move |&place| (place, relation.position + map.place(place).position))
     });
     places.collect()
 }

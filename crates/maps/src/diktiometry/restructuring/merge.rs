@@ -3,7 +3,8 @@ use alloc::vec::Vec;
 use tolman_geom::PointBox;
 
 use crate::diktiometry::{
-    Config, Diktiometry, Exits, Fate, Link, LinkId, Percepts, PlaceId, Successor, merge_estims,
+    Config, Diktiometry, Exits, Fate, Link, LinkId, Percepts, PlaceId, Relation, Successor,
+    merge_estims,
 };
 
 /// Merges two places into the older one. Returns `None`, with nothing changed, if the relations of
@@ -68,7 +69,7 @@ fn join_frames(map: &mut Diktiometry, kept: PlaceId, lost: PlaceId) -> Option<Po
     let both = there.intersection(here + shift)?;
     map.reference.allows(home, left, shift).ok()?;
     let empties = home != left && map.frame(left).places.len() == 1;
-    let relations = map.frame(left).relations.clone();
+    let relations: Vec<Relation> = map.reference.relations(left).collect();
     let moved = relations.iter().map(|one| (one.to, shift + one.position));
     let allows = |(to, estimate)| map.reference.allows(home, to, estimate).is_ok();
     if empties && !moved.clone().all(allows) {

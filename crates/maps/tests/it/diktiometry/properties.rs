@@ -228,8 +228,7 @@ proptest! {
         let truths = walk.truths();
         for (place, truth) in &truths {
             let at = walk.observer.map().paths.place(*place).unwrap();
-            let frame = &walk.observer.map().reference.frames()[at.frame.0 as usize];
-            for relation in &frame.relations {
+            for relation in walk.observer.map().reference.relations(at.frame) {
                 let others = walk.observer.map().paths.places();
                 for (other, _) in others.filter(|(_, other)| other.frame == relation.to) {
                     let points = walk.robot.world().places();

@@ -4,9 +4,9 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::{Interval, Point, PointBox, PoseBox};
 use tolman_maps::diktiometry::{
-    Action, Apart, Config, Counts, Exits, FirstPlace, GeometricMerge, Identity, MergeProof,
-    MoveOutcome, ObservedMove, Observer, Opportunity, PlaceBelief, PlaceId, Restructured,
-    Signature, Use, WorldKind,
+    Action, Apart, Config, Counts, Exits, FirstPlace, FrameId, GeometricMerge, Identity,
+    MergeProof, MoveOutcome, ObservedMove, Observer, Opportunity, PlaceBelief, PlaceId,
+    Restructured, Signature, Use, WorldKind,
 };
 use tolman_sim::abstract_world::{AbstractWorld, MoveNoise};
 
@@ -59,10 +59,11 @@ fn learned(walk: &Walk) -> Vec<String> {
     for (number, frame) in map.reference.frames().iter().enumerate().step_by(4) {
         figures.push(format!(
             "{number} {} {:?}",
-            frame.relations.len(),
+            frame.above.len() + frame.below.len(),
             frame.places
         ));
-        let relations = frame.relations.iter().step_by(3).take(4);
+        let relations = map.reference.relations(FrameId(number as u32));
+        let relations = relations.step_by(3).take(4);
         figures.extend(relations.map(|one| format!("{:?} {}", one.to, bounds(one.position))));
     }
     figures.push(format!("{:?}", map.looks));
@@ -218,6 +219,11 @@ fn summed(observer: &Observer) -> String {
             .iter()
             .filter(|frame| !frame.places.is_empty())
     };
+    let relations = || {
+        let frames = (0..).map(FrameId).zip(map.reference.frames());
+        let used = frames.filter(|(_, frame)| !frame.places.is_empty());
+        used.flat_map(|(frame, _)| map.reference.relations(frame))
+    };
     let sides =
         |one: PointBox| one.x.low() + 2.0 * one.x.high() + 3.0 * one.y.low() + 4.0 * one.y.high();
     let counts = [
@@ -235,7 +241,7 @@ fn summed(observer: &Observer) -> String {
         links()
             .map(|(_, link)| link.traversed as usize + 10 * link.then.len())
             .sum(),
-        frames().map(|frame| frame.relations.len()).sum(),
+        relations().count(),
     ];
     let counted = |counts: Counts| counts.expected() + 2.0 * counts.met();
     let sums: [f64; 8] = [
@@ -248,8 +254,7 @@ fn summed(observer: &Observer) -> String {
         places().map(|place| counted(place.counts)).sum(),
         links().map(|(_, link)| counted(link.counts)).sum(),
         links().map(|(chance, _)| chance).sum(),
-        frames()
-            .flat_map(|frame| &frame.relations)
+        relations()
             .map(|one| sides(one.position) + 0.1 * sides(one.envelope))
             .sum(),
         observer.tracks().iter().map(|track| track.confidence).sum(),
