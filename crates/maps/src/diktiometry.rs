@@ -108,7 +108,8 @@ pub use path_graph::{
 pub use place_belief::{Explained, PlaceBelief};
 pub use reference_graph::{Excluded, Frame, ReferenceGraph, Relation};
 pub use report::{
-    Contradiction, Culprit, PlanStep, Predicted, Restructured, StepReport, TrackReport,
+    Contradiction, Culprit, PlanStep, Predicted, Restructured, Restructurer, StepReport,
+    TrackReport,
 };
 pub use self_check::{MapState, SelfCheck};
 pub use signature::{Signature, SignatureError};

@@ -37,6 +37,7 @@ impl Observer {
         if rank == Rank::Best {
             let contradictions = self.contradictions(track.id, &projection, &choice);
             report.contradictions.extend(contradictions);
+            report.reordered = choice.reordered;
         }
         for (number, chosen) in choice.matches.iter().enumerate() {
             let landed = if rank == Rank::Best && number == 0 {

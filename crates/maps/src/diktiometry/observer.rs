@@ -143,6 +143,7 @@ impl Observer {
             tracks: Vec::new(),
             contradictions: Vec::new(),
             restructured: Vec::new(),
+            reordered: false,
         };
         match step.outcome {
             MoveOutcome::Blocked => self.blocked(step, &mut report),
@@ -195,7 +196,7 @@ impl Observer {
         let apart = &self.journal.distinctions;
         report.restructured = restructure(&mut self.map, &self.config, hints, &occupied, apart);
         for change in &report.restructured {
-            if let Restructured::Split { kept, new } = *change {
+            if let Restructured::Split { kept, new, .. } = *change {
                 self.take_sides(kept, new);
             }
         }

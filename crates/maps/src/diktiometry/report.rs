@@ -17,6 +17,9 @@ pub struct StepReport {
     pub contradictions: Vec<Contradiction>,
     /// Changes of the map, in order.
     pub restructured: Vec<Restructured>,
+    /// Whether the dynamic order of priorities decided: by the static order the best track would
+    /// have gone on by another match.
+    pub reordered: bool,
 }
 
 /// Result of a move for one track.
@@ -80,6 +83,24 @@ pub enum Culprit {
     },
 }
 
+/// Part of the mapper that proposes that two places are one, or that one is two. In the order in
+/// which they are asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Restructurer {
+    /// Positions: geometric constraints.
+    Geometry,
+    /// Ways of a static world: an action leads from a place to one place. Beyond the paper.
+    OneWay,
+    /// Turns round a rectangle. Beyond the paper.
+    Winding,
+    /// Links: local path constraints.
+    LocalPath,
+    /// Histories of tracks: non-local path constraints.
+    NonLocalPath,
+    /// Looks along equal actions. Beyond the paper.
+    Looks,
+}
+
 /// A change of the map's structure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Restructured {
@@ -89,6 +110,8 @@ pub enum Restructured {
         kept: PlaceId,
         /// Place whose id now stands for the other.
         merged: PlaceId,
+        /// The first in order that proposed it.
+        by: Restructurer,
     },
     /// One place turned out to be two.
     Split {
@@ -96,6 +119,8 @@ pub enum Restructured {
         kept: PlaceId,
         /// The new place.
         new: PlaceId,
+        /// Who proposed it.
+        by: Restructurer,
     },
     /// A place turned out not to exist.
     PlaceElided(PlaceId),

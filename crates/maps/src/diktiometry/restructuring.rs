@@ -14,7 +14,7 @@ use alloc::vec::Vec;
 
 use super::{
     Config, Diktiometry, Distinction, Estim, Fate, GeometricMerge, LinkId, PlaceId, Restructured,
-    share_a_view,
+    Restructurer, share_a_view,
 };
 pub(super) use look_agreement::{learn_of_two, wanted_anywhere};
 pub(super) use non_local_path::deposit;
@@ -58,15 +58,15 @@ enum Diagnosis {
     },
 }
 
-/// Returns whether a diagnosis is accepted: proposed by one, rejected by none. Stops at the first
+/// Returns who first proposed that two places are one, if none rejects it. Stops at the first
 /// rejection.
-fn accepted(verdicts: impl IntoIterator<Item = Verdict>) -> bool {
-    let mut proposed = false;
-    for verdict in verdicts {
-        match verdict {
-            Verdict::Propose => proposed = true,
+fn accepted(map: &Diktiometry, pair: &geometric::Pair, config: &Config) -> Option<Restructurer> {
+    let mut proposed = None;
+    for (restructurer, opinion) in RESTRUCTURERS {
+        match opinion(map, pair, config) {
+            Verdict::Propose => proposed = proposed.or(Some(restructurer)),
             Verdict::Abstain => {}
-            Verdict::Reject => return false,
+            Verdict::Reject => return None,
         }
     }
     proposed
@@ -124,17 +124,14 @@ pub(super) fn restructure(
             if !may_merge(pair.a)
                 || !may_merge(pair.b)
                 || distinctions.iter().any(|one| separates(map, one, &pair))
-                || !accepted(
-                    RESTRUCTURERS
-                        .into_iter()
-                        .map(|says| says(map, &pair, config)),
-                )
             {
                 continue;
             }
-            if let Some(kept) = merge::merge(map, pair.a, pair.b, config) {
+            if let Some(by) = accepted(map, &pair, config)
+                && let Some(kept) = merge::merge(map, pair.a, pair.b, config)
+            {
                 let merged = if kept == pair.a { pair.b } else { pair.a };
-                done.push(Restructured::Merged { kept, merged });
+                done.push(Restructured::Merged { kept, merged, by });
                 hints.changed.push(kept);
             }
         }
@@ -144,7 +141,12 @@ pub(super) fn restructure(
             && let Some(diagnosis) = split_diagnosis(map, place, config)
         {
             let new = split::split(map, place, &diagnosis);
-            done.push(Restructured::Split { kept: place, new });
+            let by = diagnosis.by();
+            done.push(Restructured::Split {
+                kept: place,
+                new,
+                by,
+            });
             born.push(new);
         }
     }
@@ -157,18 +159,27 @@ fn separates(map: &Diktiometry, distinction: &Distinction, pair: &geometric::Pai
     ends == [Some(pair.a), Some(pair.b)] || ends == [Some(pair.b), Some(pair.a)]
 }
 
-/// Function that gives a restructurer's opinion on whether two places are one.
-type Restructurer = fn(&Diktiometry, &geometric::Pair, &Config) -> Verdict;
+impl Diagnosis {
+    const fn by(&self) -> Restructurer {
+        match self {
+            Self::Estims { .. } => Restructurer::Geometry,
+            Self::Links { .. } => Restructurer::LocalPath,
+        }
+    }
+}
+
+/// Function that gives an opinion on whether two places are one.
+type Opinion = fn(&Diktiometry, &geometric::Pair, &Config) -> Verdict;
 
 /// Restructurers in the order in which they are asked, until one rejects.
-const RESTRUCTURERS: [Restructurer; 7] = [
-    geometric::merge,
-    views_differ,
-    one_way::merge,
-    winding::merge,
-    local_path::merge,
-    non_local_path::merge,
-    look_agreement::merge,
+const RESTRUCTURERS: [(Restructurer, Opinion); 7] = [
+    (Restructurer::Geometry, geometric::merge),
+    (Restructurer::Looks, views_differ),
+    (Restructurer::OneWay, one_way::merge),
+    (Restructurer::Winding, winding::merge),
+    (Restructurer::LocalPath, local_path::merge),
+    (Restructurer::NonLocalPath, non_local_path::merge),
+    (Restructurer::Looks, look_agreement::merge),
 ];
 
 /// Rejects places that look different. Exception: a place without room for another may look new and

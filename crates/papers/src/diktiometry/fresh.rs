@@ -38,29 +38,29 @@ const QUICK: u32 = 2;
 pub(super) const WORLD_STREAM: u64 = 20;
 
 /// Walls of eight colours, without doorways.
-const PAINTED: OfficeConfig = {
+pub(super) const PAINTED: OfficeConfig = {
     let mut config = BARE;
     config.colours = 8;
     config
 };
 
 /// Generator of a row's worlds.
-type Draw = fn(&mut ChaCha8Rng) -> Result<Maze, GenerateError>;
+pub(super) type Draw = fn(&mut ChaCha8Rng) -> Result<Maze, GenerateError>;
 
 /// A row: a kind of world, a robot and a mapper.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FreshRow {
     pub(super) row: &'static str,
-    draw: Draw,
-    furniture: OfficeConfig,
-    moves: u32,
+    pub(super) draw: Draw,
+    pub(super) furniture: OfficeConfig,
+    pub(super) moves: u32,
     /// Exploration probability, 0 … 1.
-    heed: f64,
-    worlds: u32,
+    pub(super) heed: f64,
+    pub(super) worlds: u32,
     /// Changes the errors of the robot.
-    robot: fn(&mut SurveyorConfig),
+    pub(super) robot: fn(&mut SurveyorConfig),
     /// Changes the mapper.
-    change: Change,
+    pub(super) change: Change,
 }
 
 impl FreshRow {
@@ -78,16 +78,16 @@ impl FreshRow {
         }
     }
 
-    const fn heed(self, heed: f64) -> Self {
+    pub(super) const fn heed(self, heed: f64) -> Self {
         Self { heed, ..self }
     }
 
-    const fn furnished(self, furniture: OfficeConfig) -> Self {
+    pub(super) const fn furnished(self, furniture: OfficeConfig) -> Self {
         Self { furniture, ..self }
     }
 
     /// Returns the row with looks and turns as evidence.
-    const fn by_looks(self) -> Self {
+    pub(super) const fn by_looks(self) -> Self {
         Self {
             change: |config| config.restructuring.merge_by_looks_and_turns(),
             ..self
@@ -102,7 +102,7 @@ impl FreshRow {
         }
     }
 
-    const fn papers_rule(self, row: &'static str) -> Self {
+    pub(super) const fn papers_rule(self, row: &'static str) -> Self {
         Self {
             row,
             change: papers_rule,
@@ -111,7 +111,7 @@ impl FreshRow {
     }
 }
 
-const fn five() -> FreshRow {
+pub(super) const fn five() -> FreshRow {
     FreshRow::new("5x5 passive", |rng| Ok(blocks(5, WALLED_UP, rng)), 700)
 }
 
@@ -119,7 +119,7 @@ const fn seven() -> FreshRow {
     FreshRow::new("7x7 passive", |rng| Ok(blocks(7, WALLED_UP, rng)), 3000)
 }
 
-const fn painted(row: &'static str, draw: Draw) -> FreshRow {
+pub(super) const fn painted(row: &'static str, draw: Draw) -> FreshRow {
     FreshRow::new(row, draw, 1000)
         .heed(HEED)
         .furnished(PAINTED)

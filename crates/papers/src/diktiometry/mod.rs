@@ -4,6 +4,7 @@
 mod ablations;
 pub mod drawing;
 mod figures;
+mod firings;
 mod fresh;
 mod objection;
 mod odometry_off;
@@ -21,6 +22,7 @@ use tolman_experiment::{
 use tolman_replay::Replay;
 
 pub use ablations::{ABLATIONS, Change};
+use firings::{PARTS, PartsRow};
 use fresh::{FRESH, FreshRow};
 use odometry_off::{BlindRow, ODOMETRY_OFF};
 use settings::{Rows, Setting, Subject, Trial};
@@ -45,6 +47,7 @@ struct Diktiometry {
     trials: Vec<Trial>,
     fresh: Vec<FreshRow>,
     blind: Vec<BlindRow>,
+    parts: Vec<PartsRow>,
 }
 
 /// Returns the experiment with its offices.
@@ -61,6 +64,8 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     tables.push(fresh::table(&fresh, options));
     let blind = odometry_off::rows();
     tables.push(odometry_off::table(&blind, options));
+    let parts = firings::rows();
+    tables.push(firings::table(&parts, options));
     let mut config = BTreeMap::<_, BTreeMap<_, _>>::new();
     for trial in &trials {
         let rows = trial.settings.iter();
@@ -74,6 +79,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         trials,
         fresh,
         blind,
+        parts,
     };
     Ok(Experiment::new(ENTRY, tables, config, procedure))
 }
@@ -191,6 +197,11 @@ impl Procedure for Diktiometry {
             let row = row.ok_or_else(|| format!("there is no row {:?}", job.row))?;
             return row.run(job.seed);
         }
+        if job.table == PARTS {
+            let row = self.parts.iter().find(|row| row.fresh.row == job.row);
+            let row = row.ok_or_else(|| format!("there is no row {:?}", job.row))?;
+            return row.run(job.seed);
+        }
         let setting = self.setting(job)?;
         let mut survey = Survey::new(&setting.office, setting.config.clone(), job.seed)?;
         let mut plans = Vec::new();
@@ -248,7 +259,7 @@ impl Procedure for Diktiometry {
             let (office, config) = self.fresh(job)?.draw(job.seed)?;
             return replay::of(&office, &config, job).map(Some);
         }
-        if job.table == ODOMETRY_OFF {
+        if [ODOMETRY_OFF, PARTS].contains(&job.table) {
             return Ok(None);
         }
         let setting = self.setting(job)?;

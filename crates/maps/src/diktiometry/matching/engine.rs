@@ -16,6 +16,8 @@ pub(crate) struct Choice {
     pub(crate) excluded: Option<Candidate>,
     /// Whether the best match looks as before.
     pub(crate) look: Similarity,
+    /// Whether another match would be best by the static order.
+    pub(crate) reordered: bool,
 }
 
 /// A matcher and the place it matched.
@@ -101,8 +103,10 @@ pub(crate) fn choose(
         let joined = sets.remove(1);
         sets[0].extend(joined);
     }
-    choice.matches = maximal(situation, &applicable(&sets));
+    let applicable = applicable(&sets);
+    choice.matches = maximal(situation, &applicable);
     if let Some(best) = choice.matches.first() {
+        choice.reordered = applicable.iter().any(|one| one.matcher < best.matcher);
         choice.look = best.look;
         if best.is_certain {
             choice.twins = certain;

@@ -116,7 +116,7 @@ impl Prover<'_> {
             .restructured
             .iter()
             .filter_map(|change| match *change {
-                Restructured::Merged { kept, merged } => Some([kept, merged]),
+                Restructured::Merged { kept, merged, .. } => Some([kept, merged]),
                 _ => None,
             });
         let merges: Vec<[PlaceId; 2]> = merges.collect();

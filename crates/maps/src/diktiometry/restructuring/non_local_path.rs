@@ -8,15 +8,17 @@ use crate::diktiometry::{Config, Diktiometry, PlaceId, TrackEntry, Use};
 /// Minimum number of moves of a history that counts as evidence.
 const LEAST: usize = 3;
 
-/// Leaves a copy of a track's history at the place it matched, if the history has any doubt. "When
-/// a track matches a place, it deposits copies of its histories at the place".
+/// Leaves a copy of a track's history at the place it matched, if the history has any doubt and
+/// paths alone may justify a merge. "When a track matches a place, it deposits copies of its
+/// histories at the place".
 pub(crate) fn deposit(
     map: &mut Diktiometry,
     place: PlaceId,
     history: &[TrackEntry],
     config: &Config,
 ) {
-    let used = config.restructuring.non_local_merge == Use::On;
+    let limits = &config.restructuring;
+    let used = limits.non_local_merge == Use::On && limits.geometric_merge.trusts_paths();
     if !used || history.len() < LEAST || history.iter().all(|entry| entry.doubts.is_empty()) {
         return;
     }

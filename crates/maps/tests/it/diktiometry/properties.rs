@@ -284,7 +284,7 @@ fn a_merge_is_taken_back() {
             .restructured
             .into_iter()
             .find_map(|change| match change {
-                tolman_maps::diktiometry::Restructured::Merged { kept, merged } => {
+                tolman_maps::diktiometry::Restructured::Merged { kept, merged, .. } => {
                     Some((kept, merged))
                 }
                 _ => None,
