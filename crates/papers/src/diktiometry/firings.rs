@@ -7,17 +7,11 @@ use tolman_maps::diktiometry::{
 };
 use tolman_maze::drawings::{ladder_of, ring};
 
-use super::fresh::{FreshRow, PAINTED, five, painted};
+use super::fresh::{FreshRow, PAINTED, QUICK, WORLDS, five, painted};
 use super::settings::{FURNISHED, HEED, WALLED_UP};
 
 /// Name of the table.
 pub(super) const PARTS: &str = "parts";
-
-/// Default number of worlds of a row.
-const WORLDS: u32 = 100;
-
-/// Number of worlds of a row for a first look.
-const QUICK: u32 = 2;
 
 /// Number of moves in each world.
 const MOVES: u32 = 1000;

@@ -26,13 +26,13 @@ use super::share;
 pub(super) const FRESH: &str = "fresh worlds";
 
 /// Default number of worlds of a row.
-const WORLDS: u32 = 100;
+pub(super) const WORLDS: u32 = 100;
 
 /// Default number of the largest worlds.
 const LARGE_WORLDS: u32 = 20;
 
 /// Number of worlds of a row for a first look.
-const QUICK: u32 = 2;
+pub(super) const QUICK: u32 = 2;
 
 /// Stream of a run's seed from which its world is drawn. The walk uses other streams.
 pub(super) const WORLD_STREAM: u64 = 20;

@@ -173,17 +173,25 @@ fn share(part: usize, whole: usize) -> Option<f64> {
     (whole > 0).then(|| part as f64 / whole as f64)
 }
 
+/// Returns the row that a job is of.
+fn row_of<'a, R>(
+    rows: &'a [R],
+    name: fn(&R) -> &'static str,
+    job: &Job<'_>,
+) -> Result<&'a R, BoxError> {
+    let row = rows.iter().find(|row| name(row) == job.row);
+    row.ok_or_else(|| format!("there is no row {:?}", job.row).into())
+}
+
 impl Diktiometry {
     fn setting(&self, job: &Job<'_>) -> Result<&Setting, BoxError> {
         let trial = self.trials.iter().find(|trial| trial.name == job.table);
-        let mut settings = trial.into_iter().flat_map(|trial| &trial.settings);
-        let setting = settings.find(|setting| setting.row == job.row);
-        setting.ok_or_else(|| format!("there is no row {:?}", job.row).into())
+        let settings = trial.map_or(&[][..], |trial| &trial.settings);
+        row_of(settings, |setting| setting.row, job)
     }
 
     fn fresh(&self, job: &Job<'_>) -> Result<&FreshRow, BoxError> {
-        let row = self.fresh.iter().find(|row| row.row == job.row);
-        row.ok_or_else(|| format!("there is no row {:?}", job.row).into())
+        row_of(&self.fresh, |row| row.row, job)
     }
 }
 
@@ -193,14 +201,10 @@ impl Procedure for Diktiometry {
             return self.fresh(job)?.run(job.seed);
         }
         if job.table == ODOMETRY_OFF {
-            let row = self.blind.iter().find(|row| row.row == job.row);
-            let row = row.ok_or_else(|| format!("there is no row {:?}", job.row))?;
-            return row.run(job.seed);
+            return row_of(&self.blind, |row| row.row, job)?.run(job.seed);
         }
         if job.table == PARTS {
-            let row = self.parts.iter().find(|row| row.fresh.row == job.row);
-            let row = row.ok_or_else(|| format!("there is no row {:?}", job.row))?;
-            return row.run(job.seed);
+            return row_of(&self.parts, |row| row.fresh.row, job)?.run(job.seed);
         }
         let setting = self.setting(job)?;
         let mut survey = Survey::new(&setting.office, setting.config.clone(), job.seed)?;

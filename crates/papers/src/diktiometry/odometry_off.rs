@@ -7,16 +7,10 @@ use tolman_experiment::{BoxError, Fields, Metric, Options, Record, Row, Table, r
 use tolman_maze::Direction;
 use tolman_systems::stream;
 
-use super::fresh::WORLD_STREAM;
+use super::fresh::{QUICK, WORLD_STREAM, WORLDS};
 
 /// Name of the table.
 pub(super) const ODOMETRY_OFF: &str = "odometry off";
-
-/// Default number of worlds of a row.
-const WORLDS: u32 = 100;
-
-/// Number of worlds of a row for a first look.
-const QUICK: u32 = 2;
 
 /// Stream of a run's seed from which a random walk is drawn.
 const WALK_STREAM: u64 = 21;
