@@ -70,8 +70,15 @@ impl KeepOff {
     }
 
     /// Corrects the proposal of the layer above.
+    ///
+    /// The nearer something is, the less of the proposed turn is left. If the two turns were added,
+    /// they could cancel out in front of a post, and the robot would stand there for good. A turn
+    /// in place is not corrected: a round robot touches nothing by it.
     #[must_use]
     pub fn correct(&self, proposal: Twist, echoes: &Echoes) -> Twist {
+        if proposal.linear <= 0.0 {
+            return proposal;
+        }
         // Driving ahead leaves behind everything behind the wheels' axle.
         let ahead = echoes.iter().filter(|point| point.x > 0.0);
         let Some(nearest) = ahead.min_by(|a, b| a.coords.norm().total_cmp(&b.coords.norm())) else {
@@ -85,8 +92,8 @@ impl KeepOff {
             self.turn
         };
         Twist::new(
-            proposal.linear.min(proposal.linear * freedom),
-            proposal.angular + (1.0 - freedom) * away,
+            proposal.linear * freedom,
+            proposal.angular * freedom + (1.0 - freedom) * away,
         )
     }
 }
@@ -115,6 +122,30 @@ mod tests {
         assert_eq!(layer.correct(AHEAD, &Echoes::default()), AHEAD);
         // Nor does what is behind.
         assert_eq!(layer.correct(AHEAD, &echoes(3, 0.001)), AHEAD);
+    }
+
+    #[test]
+    fn no_turn_holds_it_before_what_is_near() {
+        let layer = KeepOff::ours();
+        // A wall comes nearer and goes away, and the layer above steers to it.
+        for range in (0..100).map(|step| f64::from(step) * 0.001) {
+            for angular in [-3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0] {
+                let proposal = Twist::new(0.1, angular);
+                for sensor in [0, 7] {
+                    let twist = layer.correct(proposal, &echoes(sensor, range));
+                    assert!(
+                        twist.linear > 0.001 || twist.angular.abs() > 0.5,
+                        "{twist:?}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_turn_in_place_is_left_as_it_is() {
+        let turn = Twist::new(0.0, 3.0);
+        assert_eq!(KeepOff::ours().correct(turn, &echoes(7, 0.005)), turn);
     }
 
     #[test]

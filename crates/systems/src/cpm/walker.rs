@@ -1,4 +1,4 @@
-use core::f64::consts::{FRAC_PI_2, PI};
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 use thiserror::Error;
 use tolman_control::epuck::{
@@ -187,6 +187,14 @@ fn askew_of(segments: &Segments) -> Option<f64> {
     (count >= 3.0 && agreement > 0.8 * count).then(|| libm::atan2(sine, cosine) / 4.0)
 }
 
+/// Returns whether two ways lead on, across each other.
+fn is_bend(view: &View) -> bool {
+    let ways: Vec<f64> = view.segments.spaces().collect();
+    let [one, other] = ways[..] else { return false };
+    let between = Heading::from_radians(one - other).radians().abs();
+    (between - FRAC_PI_2).abs() < FRAC_PI_4
+}
+
 /// Standard deviations of a heading from walls, and from the ways out of a crossing, rad.
 const BY_WALLS: f64 = 0.02;
 const BY_WAYS: f64 = 0.1;
@@ -204,6 +212,9 @@ const APART: f64 = 0.5;
 /// Distance from the first sighting of a landmark to its middle, in corridor widths. It is less
 /// than half, because the lower layers turn in the middle before a wall.
 const TO_LANDMARK: f64 = 0.4;
+
+/// Maximum time of the drive to a landmark's middle, as a multiple of that of driving straight.
+const MOST_TIME: f64 = 10.0;
 
 /// Distance in corridor widths within which no fragment leads back to the place where it began.
 const ROUND: f64 = 2.0;
@@ -643,7 +654,13 @@ impl<B: CpmRobot> Walker<B> {
         let width = self.config.corridor_width;
         let begun = self.driven();
         let step_s = self.config.pilot.step_us as f64 * 1e-6;
-        while self.driven() - begun < TO_LANDMARK * width && !self.pilot.is_enclosed(0.75 * width) {
+        let needed = TO_LANDMARK * width / (self.config.pilot.forward.speed * step_s);
+        // Turns in bends need time, too.
+        for _ in 0..(MOST_TIME * needed) as u32 {
+            let driven = self.driven() - begun;
+            if driven >= TO_LANDMARK * width || self.pilot.is_enclosed(0.75 * width) {
+                break;
+            }
             self.pilot.follow(step_s)?;
         }
         Ok(())
@@ -679,6 +696,12 @@ impl<B: CpmRobot> Walker<B> {
         for _ in 0..ROUNDS {
             let middle = match view.segments.place() {
                 PlaceKind::Junction => self.middle_of(&view),
+                // A landmark in a bend.
+                PlaceKind::Path
+                    if landmark.is_some() && self.tells_neighbours() && is_bend(&view) =>
+                {
+                    self.middle_of(&view)
+                }
                 PlaceKind::DeadEnd if self.is_before_a_wall(&view.segments, 1.1) => {
                     self.before_the_wall()
                 }
