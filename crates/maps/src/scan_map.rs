@@ -30,6 +30,7 @@ mod map;
 mod ranked_bits;
 mod rays;
 mod skeleton;
+mod squares;
 mod standpoints;
 mod wall_grid;
 

@@ -6,6 +6,7 @@ use tolman_robot::{Landmark, MapLink, MapPlace, MapView};
 
 use super::branches::Branches;
 use super::skeleton::Skeleton;
+use super::squares::Squares;
 use super::wall_grid::{index_of, middle};
 use super::{ScanChart, WallGrid};
 
@@ -57,9 +58,11 @@ const SENSED_BY: f64 = 0.25;
 const REACH: f64 = 0.33;
 /// Distance within which a robot passes a place, as a multiple of [`REACH`].
 const PASSED: f64 = 1.8;
-/// Minimum distance by which a sensed goal extends into the next corridor to count as two, as a
+/// Distance from the edge of a square within which a point may belong to the next square, as a
 /// share of the corridors' width.
-const BORDER: f64 = 0.2;
+const BORDER: f64 = 0.1;
+/// Minimum number of points at which a goal was sensed in a square. One may be in the wrong square.
+const LEAST_SENSED: usize = 2;
 
 impl CorridorMap {
     /// Returns the corridor map of a chart whose corridors are about `width` m wide. O(cells · log
@@ -79,7 +82,7 @@ impl CorridorMap {
         let degrees = branches.degrees();
         let is_junction = |number| degrees.get(&number).is_some_and(|degree| *degree > 2);
         let mut marks: Vec<(usize, Option<Landmark>)> = Vec::new();
-        for Sensed { landmark, within } in landmarks(chart, width) {
+        for Sensed { landmark, within } in landmarks(chart, &grid, width) {
             let may_stand_at = |number, knot| {
                 let is_taken = marks.contains(&(number, landmark));
                 let is_beside =
@@ -191,14 +194,18 @@ struct Sensed {
 }
 
 /// Returns the landmarks, and the point where the robot was put down, which may have none.
-fn landmarks(chart: &ScanChart, width: f64) -> impl Iterator<Item = Sensed> + '_ {
+fn landmarks<'a>(
+    chart: &'a ScanChart,
+    grid: &WallGrid,
+    width: f64,
+) -> impl Iterator<Item = Sensed> + use<'a> {
     let sensed = |landmark: Landmark| {
         move |within| Sensed {
             landmark: Some(landmark),
             within,
         }
     };
-    let goals = goals(chart.goal(), width).into_iter();
+    let goals = goals(chart, grid, width).into_iter();
     let goals = goals.map(sensed(Landmark::Goal));
     let start = bounds(chart.start()).map(sensed(Landmark::Start));
     let mut known = alloc::vec![Some(Landmark::Goal)];
@@ -227,25 +234,31 @@ fn aside([low, high]: [Point; 2], at: Point) -> f64 {
     (at - at.sup(&low).inf(&high)).norm()
 }
 
-/// Returns boxes around the points where the goal was sensed. A goal as wide as several adjacent
-/// corridors gets one box for each corridor.
-fn goals(sensed: &[Point], width: f64) -> Vec<[Point; 2]> {
-    let Some([low, high]) = bounds(sensed) else {
+/// Returns boxes around the goals: each square of the corridors in which the goal was sensed at
+/// several points is one.
+fn goals(chart: &ScanChart, grid: &WallGrid, width: f64) -> Vec<[Point; 2]> {
+    let Some(within) = bounds(chart.goal()) else {
         return Vec::new();
     };
-    let extent = high - low;
-    let count = [extent.x, extent.y].map(|along| libm::ceil((along / width - BORDER).max(0.1)));
-    let part = |at: &Point| {
-        [0, 1].map(|axis| {
-            let share = (at[axis] - low[axis]) / extent[axis].max(f64::MIN_POSITIVE);
-            (share * count[axis]).min(count[axis] - 1.0) as u32
-        })
+    let Some(squares) = Squares::of(grid, within, width) else {
+        return alloc::vec![within];
     };
-    let mut parts: BTreeMap<[u32; 2], Vec<Point>> = BTreeMap::new();
-    for at in sensed {
-        parts.entry(part(at)).or_default().push(*at);
+    let mut sensed: BTreeMap<[i32; 2], usize> = BTreeMap::new();
+    for at in chart.goal() {
+        if let Some(square) = squares.inside(*at, BORDER) {
+            *sensed.entry(square).or_default() += 1;
+        }
     }
-    parts.values().filter_map(|points| bounds(points)).collect()
+    sensed.retain(|_, points| *points >= LEAST_SENSED);
+    if sensed.is_empty() {
+        return alloc::vec![within];
+    }
+    let beside = Vector::repeat(SENSED_BY * width);
+    let around = |square: &[i32; 2]| {
+        let middle = squares.middle(*square);
+        [middle - beside, middle + beside]
+    };
+    sensed.keys().map(around).collect()
 }
 
 fn middle_of([low, high]: [Point; 2]) -> Point {

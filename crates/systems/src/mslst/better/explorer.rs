@@ -5,7 +5,7 @@ use tolman_control::{StuckBeams, heading_of, unit_of};
 use tolman_geom::Point;
 use tolman_maps::scan_map::{Advance, Clearings, CorridorMap, GroundWay, ScanMap, ScanMapConfig};
 use tolman_maze::Direction;
-use tolman_robot::{Guess, MapView, Mapper, Position, Scan, Standing, Task};
+use tolman_robot::{Guess, Landmark, MapView, Mapper, Position, Scan, Standing, Task};
 
 use super::reckoning::Reckoning;
 use super::stop::Stop;
@@ -36,6 +36,8 @@ pub struct BetterExplorer {
     dropped: u32,
     /// Number of actions on dropped maps.
     forgotten: usize,
+    /// Whether a dropped map had the start.
+    knew_start: bool,
     /// Number of actions left to come back; `None` while there are gaps.
     homeward: Option<f64>,
 }
@@ -89,6 +91,7 @@ impl BetterExplorer {
             stop: None,
             dropped: 0,
             forgotten: 0,
+            knew_start: false,
             homeward: None,
         }
     }
@@ -110,6 +113,9 @@ impl BetterExplorer {
     #[must_use]
     pub fn doubt(&self) -> Option<&'static str> {
         match self.plan {
+            Plan::Finished if self.knew_start && !self.knows_start() => {
+                Some("the start is not on it, though it began there: try another --seed")
+            }
             Plan::Finished => self.map.chart().doubt(),
             Plan::Return(_) | Plan::Strayed => {
                 Some("it did not come back to where its map begins: try another --seed")
@@ -118,6 +124,12 @@ impl BetterExplorer {
                 Some("a gap is left that it did not come to: try another --seed")
             }
         }
+    }
+
+    fn knows_start(&self) -> bool {
+        let first = self.map.places().first();
+        let begins_there = first.is_some_and(|first| first.landmark == Some(Landmark::Start));
+        begins_there || !self.map.start().is_empty()
     }
 
     /// Returns the learned map.
@@ -132,6 +144,7 @@ impl BetterExplorer {
             beams: core::mem::take(&mut self.beams),
             dropped: self.dropped + 1,
             forgotten: self.visit_count(),
+            knew_start: self.knew_start || self.knows_start(),
             ..Self::new(self.config)
         };
     }
