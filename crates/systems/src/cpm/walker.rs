@@ -129,7 +129,11 @@ struct Course {
 
 /// Thing that comes into sight ahead.
 enum Ahead {
-    Landmark(Landmark),
+    Landmark {
+        landmark: Landmark,
+        /// Distance to its middle along the path, m.
+        to_middle: f64,
+    },
     Junction(View),
     DeadEnd(View),
 }
@@ -215,6 +219,10 @@ const TO_LANDMARK: f64 = 0.4;
 
 /// Maximum time of the drive to a landmark's middle, as a multiple of that of driving straight.
 const MOST_TIME: f64 = 10.0;
+
+/// Distance from the middle of a landmark, in corridor widths, beyond which a robot that still
+/// senses it is at the next one.
+const NEIGHBOUR: f64 = 0.8;
 
 /// Distance in corridor widths within which no fragment leads back to the place where it began.
 const ROUND: f64 = 2.0;
@@ -549,12 +557,17 @@ impl<B: CpmRobot> Walker<B> {
         let view = self.look()?;
         let landmark = self.pilot.robot().landmark();
         course.left = course.left.filter(|left| landmark == Some(*left));
-        let is_under_way = self.is_beyond(course, driven, PLACE);
         if let Some(landmark) = landmark
-            && (course.left.is_none() || is_under_way && self.tells_neighbours())
+            && let Some(to_middle) = self.to_landmark(course, driven)
         {
-            return Ok(Some(Ahead::Landmark(landmark)));
+            return Ok(Some(Ahead::Landmark {
+                landmark,
+                to_middle,
+            }));
         }
+        // While it senses the landmark that it left, it is at that landmark's place or at the next.
+        let is_there = course.left.is_some() && self.tells_neighbours();
+        let is_under_way = !is_there && self.is_beyond(course, driven, PLACE);
         match view.segments.place() {
             PlaceKind::Junction => {
                 let middle = self.pose().transform(self.middle_of(&view));
@@ -572,6 +585,17 @@ impl<B: CpmRobot> Walker<B> {
             course.track.push((self.pose().position, seen));
         }
         Ok(None)
+    }
+
+    /// Returns the distance to the middle of a landmark that is sensed, m; `None` if it is the one
+    /// that the robot has left.
+    fn to_landmark(&self, course: &Course, driven: f64) -> Option<f64> {
+        let width = self.config.corridor_width;
+        if course.left.is_none() {
+            return Some(TO_LANDMARK * width);
+        }
+        let is_next = self.tells_neighbours() && self.is_beyond(course, driven, NEIGHBOUR);
+        is_next.then_some(width - (driven - course.begun))
     }
 
     /// Returns whether a landmark seen beyond a place with the same landmark is that of another
@@ -599,8 +623,11 @@ impl<B: CpmRobot> Walker<B> {
     /// place.
     fn enter(&mut self, course: &mut Course, ahead: Ahead) -> WalkResult<Option<Seen>, B> {
         match ahead {
-            Ahead::Landmark(landmark) => {
-                self.drive_to_landmark()?;
+            Ahead::Landmark {
+                landmark,
+                to_middle,
+            } => {
+                self.drive_to_landmark(to_middle)?;
                 let view = self.look()?;
                 self.settle(view, Some(landmark)).map(Some)
             }
@@ -630,7 +657,7 @@ impl<B: CpmRobot> Walker<B> {
     /// place at its end. The middle of that place is at `middle`.
     fn prospect(&self, course: &Course, ahead: &Ahead, middle: Point) -> Prospect {
         let (glimpse, landmark) = match ahead {
-            Ahead::Landmark(landmark) => (None, Some(*landmark)),
+            Ahead::Landmark { landmark, .. } => (None, Some(*landmark)),
             Ahead::Junction(view) | Ahead::DeadEnd(view) => (self.glimpse(view), None),
         };
         Prospect {
@@ -643,22 +670,21 @@ impl<B: CpmRobot> Walker<B> {
     /// Returns the estimated middle of the place in sight, in the frame of the robot's first pose.
     fn middle_ahead(&self, ahead: &Ahead) -> Point {
         self.pose().transform(match ahead {
-            Ahead::Landmark(_) => Point::new(TO_LANDMARK * self.config.corridor_width, 0.0),
+            Ahead::Landmark { to_middle, .. } => Point::new(*to_middle, 0.0),
             Ahead::Junction(view) => self.middle_of(view),
             Ahead::DeadEnd(_) => self.before_the_wall(),
         })
     }
 
-    /// Drives from the first sighting of a landmark to near its middle.
-    fn drive_to_landmark(&mut self) -> WalkResult<(), B> {
-        let width = self.config.corridor_width;
+    /// Drives `way` m along the path, to near the middle of a landmark, or up to a wall.
+    fn drive_to_landmark(&mut self, way: f64) -> WalkResult<(), B> {
         let begun = self.driven();
         let step_s = self.config.pilot.step_us as f64 * 1e-6;
-        let needed = TO_LANDMARK * width / (self.config.pilot.forward.speed * step_s);
+        let needed = way / (self.config.pilot.forward.speed * step_s);
+        let wall = 0.75 * self.config.corridor_width;
         // Turns in bends need time, too.
         for _ in 0..(MOST_TIME * needed) as u32 {
-            let driven = self.driven() - begun;
-            if driven >= TO_LANDMARK * width || self.pilot.is_enclosed(0.75 * width) {
+            if self.driven() - begun >= way || self.pilot.is_enclosed(wall) {
                 break;
             }
             self.pilot.follow(step_s)?;
@@ -693,21 +719,22 @@ impl<B: CpmRobot> Walker<B> {
     /// Drives to the middle of the place in sight, and returns the place.
     fn settle(&mut self, mut view: View, landmark: Option<Landmark>) -> WalkResult<Seen, B> {
         let glimpse = self.glimpse(&view);
+        let begun = self.pose().position;
+        let stays = landmark.is_some() && self.tells_neighbours();
         for _ in 0..ROUNDS {
             let middle = match view.segments.place() {
                 PlaceKind::Junction => self.middle_of(&view),
                 // A landmark in a bend.
-                PlaceKind::Path
-                    if landmark.is_some() && self.tells_neighbours() && is_bend(&view) =>
-                {
-                    self.middle_of(&view)
-                }
+                PlaceKind::Path if stays && is_bend(&view) => self.middle_of(&view),
                 PlaceKind::DeadEnd if self.is_before_a_wall(&view.segments, 1.1) => {
                     self.before_the_wall()
                 }
                 PlaceKind::DeadEnd | PlaceKind::Path | PlaceKind::Closed => break,
             };
-            if middle.coords.norm() < NEAR {
+            let from_begin = (self.pose().transform(middle) - begun).norm();
+            // A junction farther away is beside the landmark, and not where it stands.
+            let is_beside = stays && from_begin > APART * self.config.corridor_width;
+            if is_beside || middle.coords.norm() < NEAR {
                 break;
             }
             self.pilot.go_to(middle)?;
