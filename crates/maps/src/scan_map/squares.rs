@@ -73,3 +73,60 @@ impl Squares {
         self.corner + middle * self.width
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// Number of cells in a square.
+    const CELLS: i32 = 20;
+    const WIDTH: f64 = CELLS as f64 * WallGrid::CELL;
+
+    /// Returns the squares of a piece of ground with walls where `is_wall` says.
+    fn squares(is_wall: impl Fn(GridIndex) -> bool) -> Option<Squares> {
+        let side = 6 * CELLS;
+        let grid = WallGrid::of([[0, 0], [side, side]], |index| match is_wall(index) {
+            true => GroundKind::Wall,
+            false => GroundKind::Floor,
+        });
+        let middle = middle([side / 2, side / 2]);
+        Squares::of(&grid, [middle, middle], WIDTH)
+    }
+
+    /// Returns whether a cell stands on a line, counted from `first`.
+    fn on_line(along: i32, first: i32) -> bool {
+        (along - first).rem_euclid(CELLS) == 0
+    }
+
+    proptest! {
+        #[test]
+        fn squares_lie_between_walls(first in [0..CELLS, 0..CELLS], open in prop::collection::vec(0..36, 0..18)) {
+            // Of the walls of some squares, the lower and the left one are missing.
+            let is_open = |[x, y]: GridIndex| {
+                let [column, row] = [(x - first[0]).div_euclid(CELLS), (y - first[1]).div_euclid(CELLS)];
+                open.contains(&(column + 6 * row))
+            };
+            let found = squares(|at| {
+                (on_line(at[0], first[0]) || on_line(at[1], first[1])) && !is_open(at)
+            });
+            let found = found.unwrap();
+            let inside = [0, 1].map(|axis| first[axis] + CELLS / 2 + CELLS * 2);
+            let square = found.inside(middle(inside), 0.4).unwrap();
+            prop_assert!((found.middle(square) - middle(inside)).norm() < WallGrid::CELL);
+            let edge = [first[0] + CELLS * 2 + 1, inside[1]];
+            prop_assert_eq!(found.inside(middle(edge), 0.1), None);
+            let next = [inside[0] + CELLS, inside[1] - CELLS];
+            let [column, row] = square;
+            prop_assert_eq!(found.inside(middle(next), 0.4), Some([column + 1, row - 1]));
+        }
+    }
+
+    #[test]
+    fn slanted_walls_have_no_squares() {
+        assert_eq!(squares(|[x, y]| (x + y).rem_euclid(2 * CELLS) == 0), None);
+        assert_eq!(squares(|[x, _]| on_line(x, 3)), None);
+        assert_eq!(squares(|_| false), None);
+    }
+}
