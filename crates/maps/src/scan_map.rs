@@ -15,7 +15,7 @@
 //! 6. A [`StandpointBelief`] is the belief of a robot, put down anywhere, about its position.
 //!
 //! The frame's axes are the compass's. Positions are in metres from the point where the robot was
-//! put down.
+//! first observed.
 
 mod belief;
 mod branches;

@@ -25,6 +25,10 @@ const SHARE_OF_A_BEAM: f64 = 0.3;
 /// Maximum distance of a beam's expected end from a known wall for it to be compared, m. Unknown
 /// ground has no influence.
 const COMPARED_WITHIN: f64 = 0.08;
+/// Distance to either side of a beam's expected end, along one of the axes, up to which the ground
+/// has to be seen for the beam to be compared, m. A wall that is seen only in part would draw
+/// scans from farther on back to its end.
+const BESIDE: f64 = 0.15;
 /// Spacing of the tried positions, m.
 const STEP: f64 = 0.0125;
 /// Spacing of the positions tried first, m: less than the error of a beam's end.
@@ -154,14 +158,22 @@ fn comparable(grid: &WallGrid, expected: Point, heading: Heading, scan: &Scan) -
     let ends = (0..).zip(&scan.ranges).filter_map(|(index, range)| {
         let bearing = heading.turned(scan.ring.bearing(index));
         let end = expected + bearing.unit() * *range;
+        let is_seen_along = |axis: Vector| {
+            let beside = axis * BESIDE;
+            is_seen(grid, end - beside) && is_seen(grid, end + beside)
+        };
         let compared = *range < scan.ring.max_range
-            && (grid.is_known(end)
-                || grid
-                    .wall_distance(end)
-                    .is_some_and(|wall| wall < COMPARED_WITHIN));
+            && is_seen(grid, end)
+            && (is_seen_along(Vector::x()) || is_seen_along(Vector::y()));
         compared.then_some(end)
     });
     ends.collect()
+}
+
+/// Returns whether a beam has reached or passed this point, or a wall near it.
+fn is_seen(grid: &WallGrid, at: Point) -> bool {
+    let is_near = |wall| wall < COMPARED_WITHIN;
+    grid.is_known(at) || grid.wall_distance(at).is_some_and(is_near)
 }
 
 /// Distance before its end by which a beam must pass a known wall to contradict the position, m.
@@ -273,6 +285,24 @@ mod tests {
         assert!(near(found.at.x, HERE.x, 0.012), "{found:?}");
         assert!(near(found.at.y, expected.y, 1e-12), "{found:?}");
         assert!(near(found.variance.y, 0.0036, 1e-12), "{found:?}");
+    }
+
+    /// Walls to both sides that are known up to 0.2 m ahead of the robot, and seen farther, do not
+    /// draw it back.
+    #[test]
+    fn a_wall_known_in_part_does_not_draw_back() {
+        let seen = |index: GridIndex| match index {
+            [column, _] if column > 24 => GroundKind::Unknown,
+            [_, 4 | 36] => GroundKind::Wall,
+            _ => GroundKind::Floor,
+        };
+        let walls = WallGrid::of([[0, 0], [41, 41]], seen);
+        let variance = Vector::new(0.0036, 0.0036);
+        let scan = scan(0.8, 0.8);
+        let found = fit(&walls, HERE, variance, 0.3, Heading::NORTH, &scan);
+        assert!(near(found.at.x, HERE.x, 1e-12), "{found:?}");
+        assert!(near(found.variance.x, 0.0036, 1e-12), "{found:?}");
+        assert!(found.variance.y < 0.03 * 0.03, "{found:?}");
     }
 
     /// A robot that is sure of its position does not leave it for a misplaced wall.

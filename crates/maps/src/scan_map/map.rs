@@ -12,7 +12,7 @@ use super::{Clearings, ScanChart, ScanMapConfig, WallGrid};
 /// that scans met.
 ///
 /// Positions are in the map's own frame, whose axes are the compass's, and which has its origin
-/// where the robot was put down.
+/// where the robot was first observed.
 #[derive(Clone, Debug)]
 pub struct ScanMap {
     config: ScanMapConfig,
@@ -33,12 +33,16 @@ pub struct ScanMap {
     /// Share of the beams of the last scan that contradicted the walls.
     contradiction: f64,
     /// Largest surprise so far. The surprise of two consecutive scans is the smaller of their
-    /// contradicting shares.
+    /// contradicting shares, that of a start elsewhere is 1.
     surprise: f64,
 }
 
 /// Minimum number of beams that can contradict walls.
 const FEWEST: u32 = 20;
+
+/// Distance from where the map begins, if that is at the start, within which the start can be
+/// sensed, in distances of two places. Farther off, the robot was moved or the map is bent.
+const START_WITHIN: f64 = 2.0;
 
 /// Minimum distance between two stored points where a landmark was sensed, m.
 const SPACING_OF_LANDMARK: f64 = 0.02;
@@ -94,10 +98,15 @@ impl ScanMap {
     }
 
     /// Takes in the robot's arrival: corrects its position by the walls, and adds the place, the
-    /// link and the walls that are new. O(cells in range + positions tried · beams + places).
+    /// link and the walls that are new. The first observation is the origin, whatever the robot
+    /// moved before. O(cells in range + positions tried · beams + places).
     pub fn observe(&mut self, seen: &Advance<'_>) {
-        let expected = self.position + seen.moved;
-        let variance = self.variance + seen.sd.component_mul(&seen.sd);
+        let (moved, sd) = match self.at {
+            Some(_) => (seen.moved, seen.sd),
+            None => (Vector::zeros(), Vector::zeros()),
+        };
+        let expected = self.position + moved;
+        let variance = self.variance + sd.component_mul(&sd);
         let fitted = fit(
             &self.grid,
             expected,
@@ -119,9 +128,11 @@ impl ScanMap {
     }
 
     /// Takes in that the robot stands at a landmark on its way, `moved` from its position at the
-    /// last observation, m.
+    /// last observation, m. Before the first one it has no position, and nothing changes.
     pub fn pass(&mut self, moved: Vector, landmark: Landmark) {
-        self.sense(landmark, self.position + moved);
+        if self.at.is_some() {
+            self.sense(landmark, self.position + moved);
+        }
     }
 
     /// Returns the position of the robot, m.
@@ -144,7 +155,8 @@ impl ScanMap {
     }
 
     /// Returns the greatest surprise so far, 0 to 1: the largest share of the beams of two scans in
-    /// a row that contradicted known walls.
+    /// a row that contradicted known walls. It is 1 if the start was sensed far from where it is on
+    /// the map.
     #[must_use]
     pub const fn surprise(&self) -> f64 {
         self.surprise
@@ -222,6 +234,10 @@ impl ScanMap {
         let known = match landmark {
             Landmark::Goal => &mut self.goal,
             Landmark::Start if !begins_there => &mut self.start,
+            Landmark::Start if at.coords.norm() > START_WITHIN * self.config.spacing_of_places => {
+                self.surprise = 1.0;
+                return;
+            }
             Landmark::Start | Landmark::Numbered(_) => return,
         };
         let is_new = |known: &Point| (at - known).norm() >= SPACING_OF_LANDMARK;

@@ -517,3 +517,23 @@ fn a_start_is_noted_where_the_map_does_not_begin() {
     assert_eq!(noted(None, Landmark::Numbered(3)), (0, 0));
     assert_eq!(noted(Some(Landmark::Numbered(3)), start), (2, 0));
 }
+
+/// A map begins where the robot was first observed. The start, if it is there, is nowhere else.
+#[test]
+fn a_start_elsewhere_is_a_surprise() {
+    let mut map = ScanMap::new(ScanMapConfig::for_robot(DIAMETER));
+    map.pass(Vector::new(0.3, 0.0), Landmark::Goal);
+    assert!(map.goal().is_empty());
+    map.observe(&Advance {
+        moved: Vector::new(0.7, -0.2),
+        sd: Vector::new(0.3, 0.3),
+        heading: Heading::EAST,
+        scan: &scan_of(4.0, Point::new(0.5, 0.475), Heading::EAST),
+        landmark: Some(Landmark::Start),
+    });
+    assert_eq!(map.position(), Point::origin());
+    map.pass(Vector::new(1.9 * DIAMETER, 0.0), Landmark::Start);
+    assert!(map.surprise() < ScanMap::DOUBTFUL);
+    map.pass(Vector::new(2.1 * DIAMETER, 0.0), Landmark::Start);
+    assert!(map.surprise() > ScanMap::DOUBTFUL);
+}

@@ -63,8 +63,6 @@ const SURE: f64 = 0.98;
 /// Number of dropped maps above which contradicting walls are no sign of a lift: walls of rooms may
 /// contradict one another without a lift.
 const MOST_DROPPED: u32 = 3;
-/// Distance from where the map begins at which the robot is back, as a share of an action's way.
-const BACK: f64 = 0.6;
 /// Maximum number of actions until the robot is back: for each action of the shortest way, and in
 /// addition.
 const MOST_HOMEWARD: [f64; 2] = [3.0, 20.0];
@@ -200,11 +198,16 @@ impl BetterExplorer {
         Plan::Return(self.towards(&clearings, &way, scan, heading))
     }
 
-    /// Returns whether the robot is where its map begins.
+    /// Returns whether the robot's last action passed where its map begins, at most an action's way
+    /// aside: it may have been put down off the middle of a corridor.
     fn is_back(&self) -> bool {
-        let to = Point::origin() - self.map.position();
-        to.norm() <= BACK * self.config.action_way
-            && self.map.grid().sees(self.map.position(), Point::origin())
+        let here = self.map.position();
+        let before = self.trail.iter().nth_back(1).unwrap_or(&here);
+        let (back, origin) = (before - here, here.coords);
+        let share = -origin.dot(&back) / back.norm_squared().max(f64::MIN_POSITIVE);
+        let nearest = here + back * share.clamp(0.0, 1.0);
+        nearest.coords.norm() <= self.config.action_way
+            && self.map.grid().sees(here, Point::origin())
     }
 
     /// Returns the action that leads nearest to a way's end; `None` if all lead away.
