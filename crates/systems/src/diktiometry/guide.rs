@@ -20,6 +20,8 @@ pub(super) struct Guide {
     under_way: Option<Direction>,
     planner: Planner,
     walk: ChaCha8Rng,
+    /// Direction of the last move; `None` where the map begins.
+    came: Option<Direction>,
     /// Place where each landmark was sensed last, by the place's id at that time.
     landmarks: BTreeMap<Landmark, PlaceId>,
     /// Number of moves so far.
@@ -87,6 +89,7 @@ impl Guide {
             under_way: None,
             planner: Planner::new(heed),
             walk: stream(seed, WALK_STREAM),
+            came: None,
             landmarks: BTreeMap::new(),
             moves: 0,
             doubt: None,
@@ -147,7 +150,7 @@ impl Guide {
             return false;
         }
         self.mapping = None;
-        (self.under_way, self.doubt, self.is_carried) = (None, None, false);
+        (self.under_way, self.came, self.doubt, self.is_carried) = (None, None, None, false);
         self.whereabouts = Whereabouts::Unknown;
         self.landmarks.clear();
         self.planner.drop_script();
@@ -187,6 +190,7 @@ impl Guide {
         self.under_way = Some(direction);
         mapping.go(rover, direction)?;
         self.under_way = None;
+        self.came = Some(direction);
         let history = mapping.observer().config().tracks.history;
         self.whereabouts = before.after_a_move(history);
         self.moves = self.moves.saturating_add(1);
@@ -258,11 +262,19 @@ impl Guide {
         give_up(&complaint.unwrap_or_default())
     }
 
-    /// Takes the next step of the planner's walk.
+    /// Takes the next step of the planner's walk. While the map is not folded, the walk turns back in
+    /// dead ends only: a loop folds for who goes round it.
     fn wander(&mut self) -> Next {
+        let goes_round = matches!(self.doubt, Some((MapState::Unfolded, _)));
         let decision = self.mapping.as_ref().and_then(|mapping| {
-            let (observer, exits) = (mapping.observer(), mapping.exits());
-            self.planner.choose(observer, exits, &mut self.walk)
+            let (observer, mut exits) = (mapping.observer(), *mapping.exits());
+            let back = self.came.filter(|_| goes_round).map(Direction::opposite);
+            if let Some(back) = back.map(Direction::index)
+                && exits.iter().filter(|is_open| **is_open).count() > 1
+            {
+                exits[back] = false;
+            }
+            self.planner.choose(observer, &exits, &mut self.walk)
         });
         decision.map_or_else(
             || give_up("no way leads on from where it stands"),
