@@ -262,8 +262,8 @@ impl Guide {
         give_up(&complaint.unwrap_or_default())
     }
 
-    /// Takes the next step of the planner's walk. While the map is not folded, the walk turns back in
-    /// dead ends only: a loop folds for who goes round it.
+    /// Takes the next step of the planner's walk. While the map is not folded, the walk turns back
+    /// in dead ends only: a loop folds for who goes round it.
     fn wander(&mut self) -> Next {
         let goes_round = matches!(self.doubt, Some((MapState::Unfolded, _)));
         let decision = self.mapping.as_ref().and_then(|mapping| {
