@@ -46,6 +46,7 @@ mod interval;
 mod point_box;
 mod pose;
 mod pose_box;
+mod segment;
 mod twist;
 
 pub use floor::floor_index;
@@ -54,6 +55,7 @@ pub use interval::{Interval, IntervalError};
 pub use point_box::PointBox;
 pub use pose::Pose;
 pub use pose_box::PoseBox;
+pub use segment::nearest_on_segment;
 pub use twist::Twist;
 
 /// A position in the plane, in metres.

@@ -2,7 +2,7 @@
 
 use core::fmt::Write;
 
-use tolman_geom::{Point, Pose, Vector};
+use tolman_geom::{Point, Pose, Vector, nearest_on_segment};
 use tolman_maps::cpm::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, PortState, Sign};
 use tolman_maze::Cell;
 use tolman_robot::Landmark;
@@ -302,7 +302,7 @@ fn free(points: &[Point], graph: &GraphPicture) -> Point {
         let others = graph.nodes.iter().map(|node| node.position);
         let others = others.filter(|node| node != start && node != end);
         let distances = others.map(|node| {
-            let to = |end: &Point| distance_to(node, *at, *end);
+            let to = |end: &Point| (node - nearest_on_segment(node, *at, *end)).norm();
             to(start).min(to(end))
         });
         distances.fold(f64::INFINITY, f64::min)
@@ -317,13 +317,6 @@ fn free(points: &[Point], graph: &GraphPicture) -> Point {
     }
     candidates.sort_by(|a, b| room(b).total_cmp(&room(a)));
     candidates[0]
-}
-
-/// Returns the distance of a point from the line between two others.
-fn distance_to(point: Point, from: Point, to: Point) -> f64 {
-    let along = to - from;
-    let share = (point - from).dot(&along) / along.norm_squared().max(f64::MIN_POSITIVE);
-    (point - (from + share.clamp(0.0, 1.0) * along)).norm()
 }
 
 /// Returns the point at this share of the way's length, 0 … 1.

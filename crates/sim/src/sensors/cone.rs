@@ -1,4 +1,4 @@
-use tolman_geom::{Point, Pose, Vector};
+use tolman_geom::{Point, Pose, Vector, nearest_on_segment};
 
 use crate::WallSegment;
 
@@ -69,12 +69,7 @@ fn cut((start, end): (Vector, Vector), normal: Vector) -> Option<(Vector, Vector
 }
 
 fn nearest_to_origin(start: Vector, end: Vector) -> Vector {
-    let along = end - start;
-    let square = along.norm_squared();
-    if square <= 0.0 {
-        return start;
-    }
-    start + along * (-start.dot(&along) / square).clamp(0.0, 1.0)
+    nearest_on_segment(Point::origin(), start.into(), end.into()).coords
 }
 
 /// Returns the angle between the direction to a point of a wall and the wall's normal, rad; 0 if it

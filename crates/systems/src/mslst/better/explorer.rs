@@ -2,7 +2,7 @@ use core::convert::Infallible;
 
 use rand::{Rng, RngExt};
 use tolman_control::{StuckBeams, heading_of, unit_of};
-use tolman_geom::Point;
+use tolman_geom::{Point, nearest_on_segment};
 use tolman_maps::scan_map::{Advance, Clearings, CorridorMap, GroundWay, ScanMap, ScanMapConfig};
 use tolman_maze::Direction;
 use tolman_robot::{Guess, Landmark, MapView, Mapper, Position, Scan, Standing, Task};
@@ -202,10 +202,8 @@ impl BetterExplorer {
     /// aside: it may have been put down off the middle of a corridor.
     fn is_back(&self) -> bool {
         let here = self.map.position();
-        let before = self.trail.iter().nth_back(1).unwrap_or(&here);
-        let (back, origin) = (before - here, here.coords);
-        let share = -origin.dot(&back) / back.norm_squared().max(f64::MIN_POSITIVE);
-        let nearest = here + back * share.clamp(0.0, 1.0);
+        let before = *self.trail.iter().nth_back(1).unwrap_or(&here);
+        let nearest = nearest_on_segment(Point::origin(), here, before);
         nearest.coords.norm() <= self.config.action_way
             && self.map.grid().sees(here, Point::origin())
     }
