@@ -28,9 +28,7 @@ fn the_laser_pioneer_learns_the_j_and_goes_to_its_goal() {
     let truth = office.places(&[]);
     assert_eq!(office.doorways(), 0);
     // The goal is the east end of the hook, the start the other end.
-    let ends = truth
-        .values()
-        .filter(|place| place.ways.iter().flatten().count() == 1);
+    let ends = truth.values().filter(|place| place.way_count() == 1);
     let mut ends: Vec<Point> = ends.map(|place| place.position).collect();
     ends.sort_by(|a, b| a.x.total_cmp(&b.x));
     let [start, goal] = ends[..] else {

@@ -353,6 +353,14 @@ pub struct TruePlace {
     pub ways: [Option<u32>; 4],
 }
 
+impl TruePlace {
+    /// Returns the number of ways that lead on.
+    #[must_use]
+    pub fn way_count(&self) -> usize {
+        self.ways.iter().flatten().count()
+    }
+}
+
 /// Returns the site to which a way truly leads, or `None` where a wall is.
 pub(super) fn leads(truth: &Places, (site, direction): (u32, Direction)) -> Option<u32> {
     truth.get(&site)?.ways[direction.index()]
@@ -517,9 +525,7 @@ mod tests {
         // A J has two ends and three bends.
         let places = office.places(&[]);
         assert_eq!(places.len(), 5);
-        let degrees = places
-            .values()
-            .map(|place| place.ways.iter().flatten().count());
+        let degrees = places.values().map(TruePlace::way_count);
         assert_eq!(degrees.sum::<usize>(), 8);
         let apart = office.separation() - office.config().pitch();
         assert!(apart.abs() < 1e-12, "{apart}");

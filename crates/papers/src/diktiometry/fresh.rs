@@ -6,7 +6,7 @@ use rand_chacha::ChaCha8Rng;
 use serde::Serialize;
 use tolman_arena::contest::MapJudgement;
 use tolman_arena::diktiometry::{
-    Office, OfficeConfig, PlaceCue, Survey, SurveyConfig, SurveyorConfig, blocks,
+    Office, OfficeConfig, PlaceCue, Survey, SurveyConfig, SurveyorConfig, TruePlace, blocks,
 };
 use tolman_experiment::{BoxError, Fields, Metric, Options, Record, Row, Table, record, require};
 use tolman_maps::diktiometry::{
@@ -21,6 +21,7 @@ use super::ablations::{Change, papers_rule};
 use super::objection::{Listener, Statement};
 use super::settings::{BARE, FURNISHED, HEED, WALLED_UP};
 use super::share;
+use super::standstill::Standstill;
 
 /// Name of the table.
 pub(super) const FRESH: &str = "fresh worlds";
@@ -126,6 +127,20 @@ pub(super) const fn painted(row: &'static str, draw: Draw) -> FreshRow {
         .by_looks()
 }
 
+/// Returns a row of walls of one colour, where the robot always begins scripts.
+const fn alike(row: &'static str, draw: Draw) -> FreshRow {
+    FreshRow::new(row, draw, 1000).heed(1.0).by_exits()
+}
+
+const fn twenty(row: &'static str, moves: u32) -> FreshRow {
+    FreshRow {
+        worlds: LARGE_WORLDS,
+        ..FreshRow::new(row, |rng| Ok(blocks(20, WALLED_UP, rng)), moves)
+            .heed(1.0)
+            .by_exits()
+    }
+}
+
 /// Tells a mapper that places are farther apart than they are by `factor`.
 fn tell_separation(config: &mut Config, factor: f64) {
     config.separation *= factor;
@@ -180,13 +195,8 @@ pub(super) fn rows() -> Vec<FreshRow> {
         seven_scripted.papers_rule("7x7 with scripts (paper's rule)"),
         complicated,
         complicated.papers_rule("7x7 doorways with scripts (paper's rule)"),
-        FreshRow {
-            row: "20x20 with scripts",
-            moves: 6000,
-            worlds: LARGE_WORLDS,
-            draw: |rng| Ok(blocks(20, WALLED_UP, rng)),
-            ..seven().heed(1.0).by_exits()
-        },
+        twenty("20x20 with scripts", 6000),
+        twenty("20x20 with scripts, 3000 moves", 3000),
         FreshRow {
             row: "outliers 1 %",
             moves: 5000,
@@ -200,10 +210,11 @@ pub(super) fn rows() -> Vec<FreshRow> {
         painted("eight", |rng| eight((8, 8), rng)),
         painted("spiral", |rng| spiral((8, 8), rng)),
         painted("ring", |rng| ring((8, 8), rng)),
-        painted("office floor", |rng| office((8, 6), rng))
-            .heed(1.0)
-            .furnished(BARE)
-            .by_exits(),
+        alike("office floor", |rng| office((8, 6), rng)),
+        alike("ladder 7, one colour", |rng| ladder_of(7, rng)),
+        alike("eight, one colour", |rng| eight((8, 8), rng)),
+        alike("spiral, one colour", |rng| spiral((8, 8), rng)),
+        alike("ring, one colour", |rng| ring((8, 8), rng)),
     ]
 }
 
@@ -220,8 +231,13 @@ record! {
         purity: f64 => higher("purity").share().decimals(4),
         /// Number of places on the map per visited true place.
         places_over_true: f64 => lower("places / true places").at_least(0).decimals(2),
+        /// Whether no place is confused with another, and at least 95 % of the visited places are on
+        /// the map once.
+        places_once: bool => higher("places once"),
         /// Share of the true places that were visited.
         seen: f64 => higher("true places visited").share().decimals(3),
+        /// Most moves in a row without a new way, while there was one that was never driven.
+        standstill: u32 => lower("moves without a new way"),
         /// Share of the true ways of the whole world that are on the map.
         link_recall: f64 => higher("link recall").share().decimals(3),
         /// Share of the map's links that lead where their action truly leads.
@@ -286,7 +302,9 @@ pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
         .metric(Metric::percent("right_of_visited_percent", FreshRun::right_of_visited))
         .metric(Metric::mean(FreshRun::purity))
         .metric(Metric::mean(FreshRun::places_over_true))
+        .metric(Metric::percent("places_once_percent", FreshRun::places_once))
         .metric(Metric::mean(FreshRun::seen))
+        .metric(Metric::greatest("longest_standstill", FreshRun::standstill))
         .metric(Metric::mean(FreshRun::link_recall))
         .metric(Metric::mean(FreshRun::link_precision))
         .metric(Metric::total(FreshRun::geometric_certificates))
@@ -363,8 +381,12 @@ impl FreshRow {
         let mut survey = Survey::new(&office, config, seed)?;
         let is_by_the_paper = survey.observer().config().matching.identity == Identity::Meets;
         let mut listener = Listener::default();
+        let mut standstill = Standstill::default();
+        let ways: usize = office.places(&[]).values().map(TruePlace::way_count).sum();
         for number in 1..=self.moves {
-            survey.step()?;
+            let from = survey.visits().last().map_or(0, |visit| visit.site);
+            let moved = survey.step()?;
+            standstill.note(&survey, from, moved.decision.direction, ways);
             if !is_by_the_paper {
                 listener.listen(number, &survey);
             }
@@ -377,7 +399,9 @@ impl FreshRow {
             right_of_visited: score.is_isomorphic,
             purity: score.purity,
             places_over_true: score.places as f64 / score.visited as f64,
+            places_once: score.purity >= 1.0 && score.share_once >= MapJudgement::ENOUGH,
             seen,
+            standstill: standstill.longest(),
             link_recall: score.link_recall,
             link_precision: score.link_precision,
             ..FreshRun::default()

@@ -10,6 +10,7 @@ mod objection;
 mod odometry_off;
 mod replay;
 mod settings;
+mod standstill;
 
 use alloc::collections::BTreeMap;
 
