@@ -64,6 +64,7 @@ mod memory;
 mod merge_certificate;
 mod observation;
 mod observer;
+mod open_pairs;
 mod opportunities;
 mod path_graph;
 mod place_belief;
@@ -101,6 +102,7 @@ pub use merge_certificate::{
 };
 pub use observation::{Exits, FirstPlace, MoveOutcome, ObservedMove};
 pub use observer::Observer;
+pub use open_pairs::{DecidingWalk, OpenPair};
 pub use opportunities::{Opportunity, OpportunityKind};
 pub use path_graph::{
     Estim, Fate, Ground, Link, LinkStatus, MergeNote, PathGraph, Place, Successor,

@@ -4,13 +4,7 @@ use alloc::vec::Vec;
 
 use tolman_geom::Point;
 
-use super::{
-    Action, Diktiometry, Exits, Observer, Place, PlaceId, SearchLimits, WorldKind, search,
-    share_a_view,
-};
-
-/// Maximum number of pairs of places that are compared before two count as different.
-const COMPARED: usize = 256;
+use super::{Action, Exits, Observer, Place, PlaceId, SearchLimits, WorldKind, search};
 
 /// Signs in the map itself that it is wrong, without the truth.
 ///
@@ -185,7 +179,7 @@ impl Observer {
     }
 
     /// Returns the other places whose boxes meet that of `place`.
-    fn near(&self, place: PlaceId) -> Vec<PlaceId> {
+    pub(super) fn near(&self, place: PlaceId) -> Vec<PlaceId> {
         let map = &self.map;
         let (frame, here) = map.site(place);
         let reached = search(&map.reference, frame, &SearchLimits::UNLIMITED);
@@ -197,45 +191,6 @@ impl Observer {
             *other != place && (*frame + map.place(*other).position).meets(here)
         });
         near.map(|(other, _)| other).collect()
-    }
-
-    /// Returns whether two places may be one by everything along the same actions.
-    fn may_be_one(&self, one: PlaceId, other: PlaceId) -> bool {
-        let mut pairs = Vec::from([(one, other)]);
-        let mut next = 0;
-        while let Some(&(a, b)) = pairs.get(next) {
-            next += 1;
-            if !self.seem_one(a, b) {
-                return false;
-            }
-            for (_, way) in self.map.paths.ways(a) {
-                let mut others = self.map.paths.ways(b);
-                let Some((_, same)) = others.find(|(_, same)| same.action == way.action) else {
-                    continue;
-                };
-                let ends = (way.to, same.to);
-                if ends.0 != ends.1 && pairs.len() < COMPARED && !pairs.contains(&ends) {
-                    pairs.push(ends);
-                }
-            }
-        }
-        true
-    }
-
-    /// Returns whether two places look alike and may be one by the relation of their frames.
-    fn seem_one(&self, a: PlaceId, b: PlaceId) -> bool {
-        let map: &Diktiometry = &self.map;
-        let [one, other] = [a, b].map(|place| map.place(place));
-        let same_exits = match (&one.exits, &other.exits) {
-            (Exits::Seen(one), Exits::Seen(other)) if self.config.world == WorldKind::Static => {
-                one.iter().all(|exit| other.contains(exit)) && one.len() == other.len()
-            }
-            _ => true,
-        };
-        let offset = map.related(a, b);
-        same_exits
-            && offset.is_none_or(|offset| offset.contains(Point::origin()))
-            && share_a_view(one, other, &self.config.percepts)
     }
 
     fn is_torn(&self, place: PlaceId) -> bool {

@@ -7,7 +7,8 @@ pub struct ScanMapConfig {
     pub radius: f64,
     /// Minimum distance of two places, m.
     pub spacing_of_places: f64,
-    /// Maximum distance from the robot's way, m, at which ground in sight counts as visited.
+    /// Maximum distance from where the robot was observed, m, at which ground in sight counts as
+    /// visited.
     pub reach_of_visit: f64,
     /// Minimum distance of scans from which walls are drawn, m.
     pub spacing_of_scans: f64,

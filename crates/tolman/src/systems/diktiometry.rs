@@ -13,8 +13,10 @@ use tolman_arena::pioneer::{CAMERA_PIONEER, LASER_PIONEER};
 use tolman_arena::run::InRun;
 use tolman_arena::{BoxError, Outing, RobotFacts, Sent};
 use tolman_draw::Drawing;
-use tolman_geom::{Heading, Point, Pose};
-use tolman_maps::diktiometry::{Action, JournalLength, Link, PlaceId};
+use tolman_geom::{Heading, Interval, Point, Pose};
+use tolman_maps::diktiometry::{
+    Action, DecidingWalk, JournalLength, Link, Observer, OpenPair, PlaceId,
+};
 use tolman_maze::Direction;
 use tolman_papers::diktiometry::drawing::map_over_world;
 use tolman_robot::{Guess, Landmark, MapView, Mapper, Scan, SensesLandmarks, Standing, Task};
@@ -345,7 +347,7 @@ fn complaint(survey: &Survey) -> Option<String> {
     let there_are = survey.office().places(&[]).len();
     if !is_isomorphic {
         return Some(format!(
-            "{places} places for the {visited} that were visited, purity {purity:.3}: places look too much alike; try walls of more colours, --set colours=8"
+            "{places} places for the {visited} that were visited, purity {purity:.3}: places look too much alike; try walls of more colours, --set colours=8. `tolman map show` lists the places that may be one"
         ));
     }
     if visited < there_are {
@@ -383,6 +385,8 @@ impl LearnedMap for Surveyed {
             let ways: Vec<String> = ways.collect();
             lines.push(format!("{}: {}", place.label, ways.join(", ")));
         }
+        let open = observer.open_pairs();
+        lines.extend(open.iter().map(|pair| open_line(pair, observer)));
         lines
     }
 
@@ -412,6 +416,7 @@ impl LearnedMap for Surveyed {
             "purity": score.purity,
             "link_precision": score.link_precision,
             "places": places.collect::<Vec<Value>>(),
+            "open_pairs": file.observer.open_pairs().iter().map(open_json).collect::<Vec<Value>>(),
         })
     }
 
@@ -463,6 +468,40 @@ impl LearnedMap for Surveyed {
     fn complaint(&self, _terrain: &Terrain) -> Result<Option<String>, Error> {
         Ok(complaint(&self.survey))
     }
+}
+
+/// Returns a line about two places that may be one, and about what would decide that.
+fn open_line(pair: &OpenPair, observer: &Observer) -> String {
+    let OpenPair { older, newer, .. } = pair;
+    let decides = match (&pair.walk, pair.offset) {
+        (Some(walk), _) => format!(
+            "go {} from place {} to see",
+            walk_of(walk).join(", "),
+            walk.from.0
+        ),
+        (None, Some(offset)) => format!(
+            "only bounds can tell: these leave {:.1} × {:.1} m, and have to leave less than {:.1} m on each side",
+            offset.x.width(),
+            offset.y.width(),
+            observer.config().separation
+        ),
+        (None, None) => "no way between them is known".to_owned(),
+    };
+    format!("place {} may be place {}: {decides}", newer.0, older.0)
+}
+
+fn open_json(pair: &OpenPair) -> Value {
+    let walk = pair.walk.as_ref();
+    let walk = walk.map(|walk| json!({ "from": walk.from.0, "actions": walk_of(walk) }));
+    let side = |side: Interval| [side.low(), side.high()];
+    let offset = pair
+        .offset
+        .map(|offset| json!({ "east": side(offset.x), "north": side(offset.y) }));
+    json!({ "older": pair.older.0, "newer": pair.newer.0, "offset": offset, "walk": walk })
+}
+
+fn walk_of(walk: &DecidingWalk) -> Vec<String> {
+    walk.actions.iter().map(|action| way(*action)).collect()
 }
 
 fn direction(link: &Link) -> String {

@@ -1,10 +1,12 @@
 //! What a map says of itself is true while the bounds hold.
 
+use alloc::collections::BTreeSet;
+
 use proptest::prelude::*;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::Point;
-use tolman_maps::diktiometry::{Apart, Config, MapState, WorldKind};
+use tolman_maps::diktiometry::{Action, Apart, Config, MapState, PlaceId, WorldKind};
 use tolman_sim::abstract_world::AbstractWorld;
 
 use super::walk::{ODOMETRY, Scripted, Walk, alike, blocks, painted};
@@ -101,6 +103,39 @@ proptest! {
             let check = walk.observer.self_check();
             prop_assert!(check.different() <= walk.score().visited, "{:?}", check);
             prop_assert_eq!(walk.observer.grows_without_end(), check.state() == MapState::Endless);
+        }
+    }
+
+    /// All places that are truly one are open pairs, and a walk that would decide goes beyond what
+    /// the map knows from one of them.
+    #[test]
+    fn places_that_are_one_are_open_pairs(seed in any::<u64>(), heed in 0_u32..=3, side in 3.0..60.0) {
+        let mut walk = Walk::new(square(side), ODOMETRY, corridors(alike()), seed);
+        walk.heed(f64::from(heed) / 3.0, 60);
+        let truths = walk.truths();
+        let paths = &walk.observer.map().paths;
+        let open = walk.observer.open_pairs();
+        let newer: BTreeSet<PlaceId> = open.iter().map(|pair| pair.newer).collect();
+        prop_assert_eq!(newer.len(), walk.observer.self_check().repeated);
+        let places: Vec<PlaceId> = paths.places().map(|(id, _)| id).collect();
+        for (older, newer) in places.iter().flat_map(|a| places.iter().map(move |b| (*a, *b))) {
+            if older < newer && truths[&older] == truths[&newer] {
+                prop_assert!(open.iter().any(|pair| (pair.older, pair.newer) == (older, newer)));
+            }
+        }
+        for pair in &open {
+            prop_assert!(pair.offset.is_none_or(|offset| offset.contains(Point::origin())));
+            let Some(walk_on) = &pair.walk else { continue };
+            let other = if walk_on.from == pair.older { pair.newer } else { pair.older };
+            let end = |from: PlaceId, actions: &[Action]| {
+                actions.iter().try_fold(from, |at, action| {
+                    Some(paths.link(paths.likeliest(at, *action)?)?.to)
+                })
+            };
+            let (last, known) = walk_on.actions.split_last().unwrap();
+            let here = end(walk_on.from, known).unwrap();
+            prop_assert!(walk.observer.untried(here).contains(last));
+            prop_assert!(end(other, &walk_on.actions).is_some());
         }
     }
 }
