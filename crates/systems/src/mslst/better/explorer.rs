@@ -9,6 +9,7 @@ use tolman_robot::{Guess, Landmark, MapView, Mapper, Position, Scan, Standing, T
 
 use super::reckoning::Reckoning;
 use super::stop::Stop;
+use super::tries::Tries;
 use super::{BetterConfig, BetterPart};
 use crate::{Brain, Doing, RolledStep};
 
@@ -25,6 +26,8 @@ pub struct BetterExplorer {
     reckoning: Reckoning,
     /// Actions that failed since the robot last moved.
     failed: Vec<Direction>,
+    /// Actions chosen lately.
+    tries: Tries,
     /// Last action that was chosen; `None` before the first.
     last: Option<Direction>,
     plan: Plan,
@@ -66,6 +69,8 @@ const MOST_DROPPED: u32 = 3;
 /// Maximum number of actions until the robot is back: for each action of the shortest way, and in
 /// addition.
 const MOST_HOMEWARD: [f64; 2] = [3.0, 20.0];
+/// Number of times that an action is chosen at a place before the robot acts at random there.
+const ROUNDS: usize = 4;
 /// Cost of a quarter turn, as a distance, m.
 const TURN: f64 = 0.35;
 
@@ -83,6 +88,7 @@ impl BetterExplorer {
             beams: StuckBeams::default(),
             reckoning: Reckoning::default(),
             failed: Vec::new(),
+            tries: Tries::default(),
             last: None,
             plan: Plan::Stuck,
             trail: Vec::new(),
@@ -168,6 +174,23 @@ impl BetterExplorer {
         }
         self.trail.push(self.map.position());
         self.plan = self.consult(scan, heading.radians());
+        self.break_a_round();
+    }
+
+    /// Lets the robot act at random if it goes to and fro, as a robot without noise does where no
+    /// whole number of actions leads to a gap.
+    fn break_a_round(&mut self) {
+        let here = self.map.position();
+        let (action, at_random) = match self.plan {
+            Plan::Go(action) => (action, Plan::Stuck),
+            Plan::Return(Some(action)) => (action, Plan::Return(None)),
+            Plan::Return(None) | Plan::Stuck | Plan::Finished | Plan::Strayed => return,
+        };
+        if self.tries.count(here, action) >= ROUNDS {
+            self.plan = at_random;
+        } else {
+            self.tries.add(here, action);
+        }
     }
 
     fn consult(&mut self, scan: &Scan, heading: f64) -> Plan {

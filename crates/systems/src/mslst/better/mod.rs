@@ -100,7 +100,6 @@ mod changed_map;
 mod config;
 mod costs;
 mod explorer;
-mod failures;
 mod imagined;
 mod map;
 mod map_file;
@@ -108,6 +107,7 @@ mod navigator;
 mod reckoning;
 mod rehearsal;
 mod stop;
+mod tries;
 
 pub use config::{BetterConfig, BetterConfigError, BetterPart, Motors};
 pub use explorer::BetterExplorer;

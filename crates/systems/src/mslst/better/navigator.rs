@@ -9,9 +9,9 @@ use tolman_maze::Direction;
 use tolman_robot::{Goal, Guess, Landmark, MapView, Mapper, Position, Scan, Standing, Task};
 
 use super::changed_map::ChangedMap;
-use super::failures::Failures;
 use super::reckoning::Reckoning;
 use super::rehearsal::facing;
+use super::tries::Tries;
 use super::{BetterMap, BetterPart};
 use crate::{Brain, Doing, RolledStep};
 
@@ -27,10 +27,14 @@ pub struct BetterNavigator {
     heading: Heading,
     /// Actions that failed since the robot last moved.
     failed: Vec<Direction>,
-    failures: Failures,
+    failures: Tries,
     next: Option<Direction>,
 }
 
+/// Number of failures of an action at a place before it costs more there.
+const FREE: usize = 1;
+/// Extra cost of an action per failure at a place, time steps.
+const FAILED: f64 = 15.0;
 /// Least probability at which a standpoint counts.
 const NO_SAY: f64 = 1e-4;
 /// Minimum probability of the robot's place at which the system states the place.
@@ -49,7 +53,7 @@ impl BetterNavigator {
             reckoning: Reckoning::default(),
             heading: Heading::NORTH,
             failed: Vec::new(),
-            failures: Failures::default(),
+            failures: Tries::default(),
             next: None,
         }
     }
@@ -150,7 +154,8 @@ impl BetterNavigator {
         }
         if let Some(here) = self.likeliest() {
             for action in Direction::ALL {
-                costs[action.index()] += self.failures.cost(here, action);
+                let often = self.failures.count(here, action).saturating_sub(FREE);
+                costs[action.index()] += FAILED * often as f64;
             }
         }
         let allowed = Direction::ALL.into_iter();
