@@ -15,6 +15,7 @@ mod paint;
 mod pathfinder;
 mod play;
 mod show;
+mod sites;
 mod stepped;
 mod true_graph;
 mod wanderers;

@@ -1,5 +1,5 @@
 use alloc::borrow::Cow;
-use alloc::collections::{BTreeMap, BTreeSet};
+use alloc::collections::BTreeSet;
 use alloc::sync::Arc;
 use core::time::Duration;
 
@@ -15,8 +15,9 @@ use tolman_systems::stream;
 use super::condition::Condition;
 use super::contestant::{ContestRobot, Contestant, Entered, Schooling};
 use super::ideal::IdealObserver;
-use super::judgement::{MapJudgement, judge, stands_for};
+use super::judgement::{MapJudgement, judge};
 use super::paint::Paint;
+use super::sites::Sites;
 use super::true_graph::TrueGraph;
 use super::wanderers::Sender;
 use super::whereabouts::{PlaceVisit, Squares, believed};
@@ -198,17 +199,39 @@ pub struct Located {
     /// Probability that an ideal observer with the true drawing would name the right cell after the
     /// same drive, 0 … 1: the passive upper bound. `None` if it did not drive.
     pub ceiling: Option<f64>,
-    /// Whether the same system answers right on the same robot with the true map: the active upper
-    /// bound. It learned that map without errors. `None` if it learned a wrong map even so, or if
-    /// its own map is wrong.
-    pub with_true_map: Option<bool>,
+    /// Probability that the system gave to its true place after each of its first
+    /// [`WATCHED`](Self::WATCHED) actions, 0 … 1. Empty if it did not drive.
+    pub chances: Vec<f64>,
+    /// Result of the same system on the same robot with the true map: the active upper bound. It
+    /// learned that map without errors. `None` if it learned a wrong map even so, or if its own map
+    /// is wrong.
+    pub with_true_map: Option<Box<Self>>,
 }
 
 impl Located {
+    /// Number of actions for which [`chances`](Self::chances) are kept.
+    pub const WATCHED: usize = 20;
+
+    /// Returns whether the system says where it is, and is right.
+    #[must_use]
+    pub fn is_right(&self) -> bool {
+        self.outcome == LocateOutcome::Right
+    }
+
+    /// Returns the probability that the system gave to its true place after `actions` actions, at
+    /// least 1 and at most [`WATCHED`](Self::WATCHED). A system that ended before does not change
+    /// its mind. `None` if it did not drive.
+    #[must_use]
+    pub fn chance_after(&self, actions: usize) -> Option<f64> {
+        let kept = self.chances.get(actions - 1);
+        kept.or(self.chances.last()).copied()
+    }
+
     pub(super) const fn undriven(why: String) -> Self {
         Self {
             outcome: LocateOutcome::Abstained { why },
             ceiling: None,
+            chances: Vec::new(),
             with_true_map: None,
         }
     }
@@ -288,9 +311,9 @@ impl<'a> Contest<'a> {
                 .map_err(|e| self.put_error(e))?;
             let with_true_map = match &mut informed {
                 Some(informed) => {
-                    let ceiling = informed.locate(here, &mut |_, _| {});
-                    let ceiling = ceiling.map_err(|source| self.put_error(source))?;
-                    Some(ceiling.outcome == LocateOutcome::Right)
+                    let found = informed.locate(here, &mut |_, _| {});
+                    let found = found.map_err(|source| self.put_error(source))?;
+                    Some(Box::new(found))
                 }
                 None => None,
             };
@@ -333,7 +356,7 @@ impl<'a> Contest<'a> {
         exchanged
             .and_then(|()| informed.shut_door())
             .map_err(|source| self.enter_error(source))?;
-        informed.stands_for = teacher.stands_for;
+        informed.sites = teacher.sites;
         Ok(Some(informed))
     }
 
@@ -454,8 +477,8 @@ pub(super) struct Bout {
     pub(super) outing: Box<dyn Outing>,
     /// Whether the robot was lifted, and has made no step since.
     is_lifted: bool,
-    /// Cell that each place of the map stands for, by the place's id.
-    stands_for: BTreeMap<u32, Cell>,
+    /// True positions of the places of the map.
+    sites: Sites,
 }
 
 /// A task in progress.
@@ -555,7 +578,7 @@ impl Bout {
             squares: Squares { grid, pitch },
             outing,
             is_lifted: false,
-            stands_for: BTreeMap::new(),
+            sites: Sites::default(),
         }
     }
 
@@ -723,7 +746,7 @@ impl Bout {
         let gone: BTreeSet<usize> = self.truth.gone(cells);
         let scale = (squares.grid, squares.pitch);
         let judgement = judge(&map, &visits, &self.truth, &gone, scale);
-        (self.stands_for, _) = stands_for(&map, &visits, squares);
+        self.sites = Sites::of(&map, &visits, squares);
         let certainty = self.outing.certainty();
         LearnRecord {
             claim: Claim::of(&driven.end, self.claims, certainty),
@@ -766,12 +789,21 @@ impl Bout {
         watch(&*self.outing, Moment::PutDown);
         let most = Contest::LIMIT * self.corridors();
         let pursuit = self.set_out(Task::Localize, most, None);
-        let driven = self.pursue(pursuit, |outing, _| watch(outing, Moment::Acted));
+        let (sites, near) = (self.sites.clone(), NEAR * self.squares.pitch);
+        let mut chances = Vec::new();
+        let driven = self.pursue(pursuit, |outing, before| {
+            if chances.len() < Located::WATCHED {
+                let here = outing.path().last().map_or(before, |pose| pose.position);
+                chances.push(sites.chance(&outing.belief(), here, near));
+            }
+            watch(outing, Moment::Acted);
+        });
         let path = &self.outing.path()[driven.from..];
         let ceiling = self.observer.after(self.squares, start, path);
         Ok(Located {
             outcome: self.outcome(driven.end),
             ceiling: Some(ceiling),
+            chances,
             with_true_map: None,
         })
     }
@@ -790,8 +822,8 @@ impl Bout {
     fn found(&self) -> LocateOutcome {
         let outing = &self.outing;
         let place = believed(&outing.belief(), || outing.map());
-        let cell = place.and_then(|place| self.stands_for.get(&place));
-        let off = cell.map(|cell| (self.squares.middle(*cell) - self.here()).norm());
+        let site = place.and_then(|place| self.sites.of_place(place));
+        let off = site.map(|site| (site - self.here()).norm());
         match off {
             Some(off) if off < NEAR * self.squares.pitch => LocateOutcome::Right,
             _ => LocateOutcome::Wrong,
@@ -967,6 +999,27 @@ mod tests {
     }
 
     #[test]
+    fn the_better_mslst_learns_without_noise_too() {
+        // Only noise led to gaps between two of its actions before.
+        for world in ["ladder", "eight", "office", "wings"] {
+            let maze = drawn(world);
+            let contest = Contest {
+                contestant: Contestant::MslstBetter,
+                robot: ContestRobot::Own,
+                maze: &maze,
+                name: world,
+                condition: Condition::Flawless,
+                starts: 0,
+                seed: 3,
+                stopwatch: None,
+            };
+            let record = contest.play(&Schooling::default(), |_, _| {}).unwrap();
+            let learned = record.learned.unwrap();
+            assert!(learned.judgement.is_right, "{world}: {:?}", learned.end);
+        }
+    }
+
+    #[test]
     fn who_cannot_work_somewhere_abstains_before_it_drives() {
         let record = play(Contestant::Cpm, "pillars", ContestRobot::Own);
         assert!(record.abstained.unwrap().contains("open square"));
@@ -988,9 +1041,16 @@ mod tests {
             assert!(found.ceiling.is_some_and(|chance| chance > 0.0));
             let learned = record.learned.as_ref();
             assert!(learned.is_some_and(|map| map.judgement.is_right && map.claim == Claim::Right));
-            // The better MSLST has no true map there: it learns a wrong one even without noise.
-            let with_true_map = (contestant != Contestant::MslstBetter).then_some(true);
-            assert_eq!(found.with_true_map, with_true_map, "{contestant:?}");
+            let informed = found.with_true_map.as_ref().map(|found| found.is_right());
+            assert_eq!(informed, Some(true), "{contestant:?}");
+            let after = |found: &Located| found.chance_after(Located::WATCHED);
+            let chances = [Some(found), found.with_true_map.as_deref()].map(|one| after(one?));
+            assert!(
+                chances
+                    .iter()
+                    .all(|chance| chance.is_some_and(|one| one > 0.9)),
+                "{contestant:?} {chances:?}"
+            );
             let over = record.homes[0].over_shortest;
             assert!(
                 over.is_some_and(|over| over < 5.0),

@@ -127,6 +127,7 @@ impl<'a> Sender<'a> {
                 },
             },
             ceiling: Some(observer.after(squares, start, path)),
+            chances: Vec::new(),
             with_true_map: None,
         })
     }

@@ -1,4 +1,4 @@
-use tolman_arena::contest::{Claim, ContestRecord, ContestRobot, LocateOutcome};
+use tolman_arena::contest::{Claim, ContestRecord, ContestRobot, LocateOutcome, Located};
 use tolman_arena::run::TaskEnd;
 use tolman_experiment::{BoxError, Metric, Run, Table, record};
 use tolman_maze::Maze;
@@ -84,6 +84,23 @@ record! {
         /// For right maps: whether the same system localizes there with the true map, which it
         /// learned without errors. No value if it learned a wrong map even so.
         with_true_map: Option<bool> => neither("active ceiling, on right maps"),
+        /// Percent that the system gives to its true place after an action. This and all below: for
+        /// right maps, where the same system has the true map beside.
+        after_1: Option<f64> => higher("true place after 1 move").percent().decimals(1),
+        /// The same with the true map.
+        after_1_informed: Option<f64> => neither("with the true map").percent().decimals(1),
+        /// The same after 5 actions.
+        after_5: Option<f64> => higher("after 5 moves").percent().decimals(1),
+        /// The same with the true map.
+        after_5_informed: Option<f64> => neither("with the true map").percent().decimals(1),
+        /// The same after 10 actions.
+        after_10: Option<f64> => higher("after 10 moves").percent().decimals(1),
+        /// The same with the true map.
+        after_10_informed: Option<f64> => neither("with the true map").percent().decimals(1),
+        /// The same after 20 actions.
+        after_20: Option<f64> => higher("after 20 moves").percent().decimals(1),
+        /// The same with the true map.
+        after_20_informed: Option<f64> => neither("with the true map").percent().decimals(1),
         /// Reason why it gave no answer.
         why: String => neither("reason"),
     }
@@ -220,13 +237,17 @@ impl LocateRun {
         let has_abstained = record.abstained.is_some();
         // Only a baseline that is given the true map answers without learning one.
         let is_known = learned.map_or(!has_abstained, |learned| learned.judgement.is_right);
-        let (outcome, ceiling, with_true_map) = match record.found.first() {
-            Some(found) => (found.outcome.clone(), found.ceiling, found.with_true_map),
-            None => {
-                let why = record.abstained.clone().unwrap_or_default();
-                (LocateOutcome::Abstained { why }, None, None)
-            }
-        };
+        let found = record.found.first();
+        let ceiling = found.and_then(|found| found.ceiling);
+        let outcome = found.map_or_else(
+            || LocateOutcome::Abstained {
+                why: record.abstained.clone().unwrap_or_default(),
+            },
+            |found| found.outcome.clone(),
+        );
+        let informed = found.and_then(|found| found.with_true_map.as_deref());
+        let own = found.filter(|_| informed.is_some());
+        let after = |found: Option<&Located>, actions| Some(100.0 * found?.chance_after(actions)?);
         let ceiling = ceiling.map(|chance| 100.0 * chance);
         let is_right = outcome == LocateOutcome::Right;
         Self {
@@ -235,7 +256,15 @@ impl LocateRun {
             right_on_right_map: is_known.then_some(is_right),
             ceiling,
             ceiling_on_right_map: ceiling.filter(|_| is_known),
-            with_true_map,
+            with_true_map: informed.map(Located::is_right),
+            after_1: after(own, 1),
+            after_1_informed: after(informed, 1),
+            after_5: after(own, 5),
+            after_5_informed: after(informed, 5),
+            after_10: after(own, 10),
+            after_10_informed: after(informed, 10),
+            after_20: after(own, 20),
+            after_20_informed: after(informed, 20),
             abstained: matches!(outcome, LocateOutcome::Abstained { .. }),
             why: match outcome {
                 LocateOutcome::Abstained { why } => why,
@@ -315,6 +344,14 @@ pub(super) fn locate(name: &str) -> Table {
             "active_ceiling_on_right_map_percent",
             LocateRun::with_true_map,
         ))
+        .metric(Metric::mean(LocateRun::after_1))
+        .metric(Metric::mean(LocateRun::after_1_informed))
+        .metric(Metric::mean(LocateRun::after_5))
+        .metric(Metric::mean(LocateRun::after_5_informed))
+        .metric(Metric::mean(LocateRun::after_10))
+        .metric(Metric::mean(LocateRun::after_10_informed))
+        .metric(Metric::mean(LocateRun::after_20))
+        .metric(Metric::mean(LocateRun::after_20_informed))
 }
 
 pub(super) fn sizes(name: &str) -> Table {
