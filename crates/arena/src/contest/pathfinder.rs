@@ -1,6 +1,6 @@
 use core::error::Error;
 
-use tolman_maps::diktiometry::{ObservedMove, PlaceId};
+use tolman_maps::diktiometry::ObservedMove;
 use tolman_robot::{
     Compass, Guess, Landmark, MapView, Mapper, Ranges, Robot, Rolls, SensesLandmarks, Standing,
     System, Task, TurnTranslate,
@@ -85,9 +85,7 @@ where
         let Some(observer) = self.learner.observer() else {
             return Standing::gave_up("it has no map to find itself on");
         };
-        let places = self.learner.map().places.into_iter();
-        let mut goals = places.filter(|place| place.landmark == Some(Landmark::Goal));
-        let goal = goals.next().map(|place| PlaceId(place.id));
+        let goal = self.learner.spot_of(Landmark::Goal);
         let routines = self.learner.config().routines;
         let (eye, map) = (self.eye.clone(), observer.clone());
         self.finder = Some(Wayfinder::new(routines, eye, map, goal, self.seed));

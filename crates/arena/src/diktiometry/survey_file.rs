@@ -4,11 +4,12 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use tolman_geom::Point;
 use tolman_maps::diktiometry::{MapFile, MapFileError, Observer, PlaceId};
-use tolman_maze::{Direction, MazeError, MazeFile};
+use tolman_maze::{Cell, Direction, MazeError, MazeFile};
 
 use super::{
     Office, OfficeConfig, OfficeError, Past, RunError, Survey, SurveyConfig, SurveyorConfig, Visit,
 };
+use tolman_systems::diktiometry::LandmarkSpot;
 use tolman_systems::{FileError, MapFiles, Origin};
 
 const FILES: MapFiles = MapFiles {
@@ -150,16 +151,50 @@ impl SurveyFile {
         })
     }
 
-    /// Returns the place of the map where the robot came to a goal of the maze, if it did.
+    /// Returns where on the map the robot came to a goal of the maze, if it did: at a place, or else
+    /// on the way between two.
     #[must_use]
-    pub fn goal(&self) -> Option<PlaceId> {
-        let maze = &self.office.course.maze;
+    pub fn goal(&self) -> Option<LandmarkSpot> {
+        let paths = &self.observer.map().paths;
+        let goals = self.office.course.maze.goals();
         let is_goal = |visit: &&Visit| {
-            let mut goals = maze.goals().iter();
-            goals.any(|goal| maze.grid().index(*goal) as u32 == visit.site)
+            let cell = self.cell(visit);
+            cell.is_some_and(|cell| goals.contains(&cell))
         };
-        let visit = self.past.visits.iter().rev().find(is_goal)?;
-        self.observer.map().paths.resolve(visit.place)
+        let mut visits = self.past.visits.iter().rev();
+        if let Some(visit) = visits.find(is_goal) {
+            return Some(LandmarkSpot::Place(paths.resolve(visit.place)?));
+        }
+        let mut moves = self.past.visits.windows(2).rev();
+        let (from, way) = moves.find_map(|pair| {
+            let [from, to] = pair else { return None };
+            let (start, end) = (self.cell(from)?, self.cell(to)?);
+            let ways = Direction::ALL.into_iter();
+            let mut over = ways.filter(|way| self.goes_over(start, *way, end, goals));
+            Some((from, over.next()?))
+        })?;
+        Some(LandmarkSpot::Way(paths.resolve(from.place)?, way))
+    }
+
+    /// Returns the cell of a visited place; `None` for a doorway.
+    fn cell(&self, visit: &Visit) -> Option<Cell> {
+        self.office
+            .course
+            .maze
+            .grid()
+            .cells()
+            .nth(visit.site as usize)
+    }
+
+    /// Returns whether a straight corridor from one cell to another goes over one of these between
+    /// them.
+    fn goes_over(&self, start: Cell, way: Direction, end: Cell, cells: &[Cell]) -> bool {
+        let maze = &self.office.course.maze;
+        let step = |at: &Cell| maze.beside(*at, way).filter(|_| maze.is_open(*at, way));
+        let beyond = core::iter::successors(step(&start), step);
+        let between: Vec<Cell> = beyond.take_while(|at| *at != end).collect();
+        let leads_there = between.last().unwrap_or(&start);
+        step(leads_there) == Some(end) && between.iter().any(|at| cells.contains(at))
     }
 
     /// Returns the survey, ready to continue. `seed` seeds all random numbers from now on.

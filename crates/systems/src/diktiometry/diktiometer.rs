@@ -5,12 +5,14 @@ use tolman_maps::diktiometry::{
     Config, FirstPlace, ObservedMove, ObservedMoveError, Observer, PlaceId, StartError,
 };
 use tolman_robot::{
-    Compass, Guess, Landmark, MapView, Mapper, Ranges, Robot, Rolls, SensesLandmarks, Standing,
-    System, Task, TurnTranslate,
+    Compass, Goal, Guess, Landmark, MapView, Mapper, Ranges, Robot, Rolls, SensesLandmarks,
+    Standing, System, Task, TurnTranslate,
 };
 
+use super::noticing::BreakOff;
 use super::{
-    Eye, Guide, MapError, Next, RoutineConfig, RoutineConfigError, RoutineError, Surveyor,
+    Eye, Guide, LandmarkSpot, MapError, Next, Noticing, RoutineConfig, RoutineConfigError,
+    RoutineError, Surveyor, of_mapper,
 };
 
 /// The diktiometry as a system: it drives a robot from place to place, maps what it finds and goes
@@ -27,8 +29,8 @@ use super::{
 ///   map that it was given, it gives up.
 /// - **Reach** a place: the map's plan, made again after every routine. It gives up if the map
 ///   knows no way.
-/// - **Reach** a landmark: the plan to the place where it was sensed last. Until it was sensed, the
-///   robot explores. Landmarks are sensed at places only, not on the way between two.
+/// - **Reach** a landmark: the plan to where it was sensed last, at a place or on the way between
+///   two; on the way, the robot stops there. Until it was sensed, the robot explores.
 /// - **Localize**: the planner's walk, until one hypothesis is confident and no other is. With an
 ///   earlier map it first makes as many moves as the mapper's `tracks.history`, on which confidence
 ///   rests.
@@ -132,9 +134,15 @@ impl<E> Diktiometer<E> {
         &self.config
     }
 
-    /// Notes the place of the map where a landmark was sensed before.
-    pub fn remember(&mut self, landmark: Landmark, place: PlaceId) {
-        self.guide.remember(landmark, place);
+    /// Notes where on the map a landmark was sensed before.
+    pub fn remember(&mut self, landmark: Landmark, spot: LandmarkSpot) {
+        self.guide.remember(landmark, spot);
+    }
+
+    /// Returns where on the map a landmark was sensed last, or `None` if it was not. O(1).
+    #[must_use]
+    pub fn spot_of(&self, landmark: Landmark) -> Option<LandmarkSpot> {
+        self.guide.spot_of(landmark)
     }
 
     /// Returns the observer with its map, or `None` before the first action.
@@ -206,38 +214,78 @@ where
     type Failure = DiktiometerError<R::Error>;
 
     fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, Self::Failure> {
-        let mut rover = Surveyor::new(robot, &self.eye, self.config.routines)?;
-        let begins_again = task == Task::Explore && self.guide.drops_map();
-        self.guide.find_footing(&mut rover, &self.config.mapper)?;
-        if begins_again {
-            self.visited.fill(None);
-            self.visited
-                .push(self.guide.observer().map(Observer::place));
-            return Ok(Standing::UnderWay);
-        }
-        let here = rover.robot().landmark();
-        self.guide.recognize(here);
-        let direction = match self.guide.next(task, here) {
-            Next::Continue(direction) => direction,
-            Next::Break(standing) => return Ok(standing),
+        let sought = match task {
+            Task::Reach(Goal::Landmark(landmark)) => self.sought(landmark),
+            Task::Reach(Goal::Place(_)) | Task::Explore | Task::Localize => None,
         };
-        if let (true, Some(observer)) = (self.visited.is_empty(), self.guide.observer()) {
-            self.visited.push(Some(observer.place()));
+        let noticing = Noticing::new(robot, sought);
+        let mut rover = Surveyor::new(noticing, &self.eye, self.config.routines)?;
+        let (guide, visited) = (&mut self.guide, &mut self.visited);
+        match advance(guide, visited, &self.config.mapper, &mut rover, task) {
+            Ok(standing) => Ok(standing),
+            Err(error) => match of_mapper(error) {
+                None => Ok(Standing::Done),
+                Some(error) => Err(error.into()),
+            },
         }
-        if !self.guide.go(&mut rover, direction)? {
-            return Ok(Standing::UnderWay);
-        }
-        self.visited
-            .push(self.guide.observer().map(Observer::place));
-        let here = rover.robot().landmark();
-        self.guide.recognize(here);
-        if self.guide.is_done(task, here) {
-            return Ok(Standing::Done);
-        }
-        Ok(Standing::UnderWay)
     }
 
     fn words(&self) -> String {
         self.guide.words()
     }
+}
+
+impl<E> Diktiometer<E> {
+    /// Returns the landmark at which to stop on the way. Where it is at a place, the robot goes on
+    /// to the place.
+    fn sought(&self, landmark: Landmark) -> Option<Landmark> {
+        match self.spot_of(landmark) {
+            Some(LandmarkSpot::Place(_)) => None,
+            Some(LandmarkSpot::Way(..)) | None => Some(landmark),
+        }
+    }
+}
+
+/// Makes the next move of a task.
+fn advance<R, E>(
+    guide: &mut Guide,
+    visited: &mut Vec<Option<PlaceId>>,
+    mapper: &Config,
+    rover: &mut Surveyor<Noticing<'_, R>, E>,
+    task: Task,
+) -> Result<Standing, MapError<RoutineError<BreakOff<R::Error>>>>
+where
+    R: SensesLandmarks + Robot<Command = TurnTranslate, Error: Error + Send + Sync + 'static>,
+    R::Sensing: Ranges + Compass + Rolls,
+    E: Eye<R::Sensing>,
+{
+    let begins_again = task == Task::Explore && guide.drops_map();
+    guide.find_footing(rover, mapper)?;
+    let place = guide.observer().map(Observer::place);
+    if begins_again {
+        visited.fill(None);
+        visited.push(place);
+        return Ok(Standing::UnderWay);
+    }
+    let before = rover.robot().landmark();
+    guide.recognize(before);
+    let direction = match guide.next(task, before) {
+        Next::Continue(direction) => direction,
+        Next::Break(standing) => return Ok(standing),
+    };
+    if visited.is_empty() && place.is_some() {
+        visited.push(place);
+    }
+    if !guide.go(rover, direction)? {
+        return Ok(Standing::UnderWay);
+    }
+    visited.push(guide.observer().map(Observer::place));
+    let here = rover.robot().landmark();
+    let passed = rover.robot().on_the_way([before, here]);
+    guide.recognize_on_way(passed, place);
+    guide.recognize(here);
+    if guide.is_done(task, here) {
+        return Ok(Standing::Done);
+    }
+    Ok(Standing::UnderWay)
 }

@@ -8,7 +8,7 @@ use tolman_maze::Direction;
 use tolman_planners::path_to;
 use tolman_robot::{Goal, Landmark, Standing, Task};
 
-use super::{MapError, Planner, Rover, RoverMap};
+use super::{LandmarkSpot, MapError, Planner, Rover, RoverMap};
 use crate::stream;
 
 /// Chooses the next move of a task by the map of a rover. It knows no robot.
@@ -22,8 +22,8 @@ pub(super) struct Guide {
     walk: ChaCha8Rng,
     /// Direction of the last move; `None` where the map begins.
     came: Option<Direction>,
-    /// Place where each landmark was sensed last, by the place's id at that time.
-    landmarks: BTreeMap<Landmark, PlaceId>,
+    /// Where each landmark was sensed last, by the place's id at that time.
+    landmarks: BTreeMap<Landmark, LandmarkSpot>,
     /// Number of moves so far.
     moves: u32,
     /// Doubtful state of the map, and the move at which it began.
@@ -161,13 +161,23 @@ impl Guide {
     pub(super) fn recognize(&mut self, landmark: Option<Landmark>) {
         if let (Some(landmark), Some(observer)) = (landmark, self.observer()) {
             let place = observer.place();
-            self.remember(landmark, place);
+            self.remember(landmark, LandmarkSpot::Place(place));
         }
     }
 
-    /// Remembers that `landmark` is at `place`.
-    pub(super) fn remember(&mut self, landmark: Landmark, place: PlaceId) {
-        self.landmarks.insert(landmark, place);
+    /// Remembers that `landmark` was sensed on the rover's last move, from `place`. A place where it
+    /// was sensed is the better spot.
+    pub(super) fn recognize_on_way(&mut self, landmark: Option<Landmark>, place: Option<PlaceId>) {
+        if let (Some(landmark), Some(place), Some(came)) = (landmark, place, self.came)
+            && !matches!(self.spot_of(landmark), Some(LandmarkSpot::Place(_)))
+        {
+            self.remember(landmark, LandmarkSpot::Way(place, came));
+        }
+    }
+
+    /// Remembers where `landmark` is.
+    pub(super) fn remember(&mut self, landmark: Landmark, spot: LandmarkSpot) {
+        self.landmarks.insert(landmark, spot);
     }
 
     /// Lets `rover` go in `direction`, and updates the map. Returns whether it went. If its view
@@ -304,33 +314,44 @@ impl Guide {
         Next::Continue(direction)
     }
 
-    /// Follows the plan to the place of a landmark, and explores if none is known.
+    /// Follows the plan to a landmark, and explores if its spot is unknown.
     fn seek(&mut self, landmark: Landmark, here: Option<Landmark>) -> Next {
-        if let (Some(place), Some(observer)) = (self.place_of(landmark), self.observer()) {
+        if let (Some(spot), Some(observer)) = (self.spot_of(landmark), self.observer()) {
+            let (LandmarkSpot::Place(place) | LandmarkSpot::Way(place, _)) = spot;
             if place == observer.place() && here != Some(landmark) {
-                // It is not where it was.
+                // It is not where it was, or is found on the way now.
                 self.landmarks.remove(&landmark);
+                if let LandmarkSpot::Way(_, direction) = spot {
+                    self.planner.drop_script();
+                    return Next::Continue(direction);
+                }
             } else if let Some(direction) = first_step(observer, place) {
                 self.planner.drop_script();
                 return Next::Continue(direction);
             }
         }
         if self.observer().is_some_and(is_explored) {
-            return give_up("the landmark is at no place that it can reach");
+            return give_up("the landmark is nowhere that it can reach");
         }
         self.wander()
     }
 
-    /// Returns the place where `landmark` was sensed, by its present id.
-    fn place_of(&self, landmark: Landmark) -> Option<PlaceId> {
-        let place = *self.landmarks.get(&landmark)?;
-        self.observer()?.map().paths.resolve(place)
+    /// Returns the spot where `landmark` was sensed, by the place's present id.
+    pub(super) fn spot_of(&self, landmark: Landmark) -> Option<LandmarkSpot> {
+        let paths = &self.observer()?.map().paths;
+        Some(match *self.landmarks.get(&landmark)? {
+            LandmarkSpot::Place(place) => LandmarkSpot::Place(paths.resolve(place)?),
+            LandmarkSpot::Way(place, way) => LandmarkSpot::Way(paths.resolve(place)?, way),
+        })
     }
 
-    /// Returns the landmarks with the present ids of their places.
+    /// Returns the landmarks at places, with the present ids of the places.
     pub(super) fn landmarks(&self) -> impl Iterator<Item = (Landmark, PlaceId)> + '_ {
         let all = self.landmarks.keys();
-        all.filter_map(|landmark| Some((*landmark, self.place_of(*landmark)?)))
+        all.filter_map(|landmark| match self.spot_of(*landmark)? {
+            LandmarkSpot::Place(place) => Some((*landmark, place)),
+            LandmarkSpot::Way(..) => None,
+        })
     }
 
     /// Returns a description of its situation in a few words.

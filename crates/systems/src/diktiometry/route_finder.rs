@@ -11,14 +11,14 @@ use tolman_maze::Direction;
 use tolman_planners::{Graph, path_to};
 use tolman_robot::{Goal, Landmark, Standing, Task};
 
-use super::{Next, Rover, first_place, observed};
+use super::{LandmarkSpot, Next, Rover, first_place, observed};
 use crate::stream;
 
 /// Chooses the next move of a rover that was put down anywhere on a learned map. It knows no robot.
 #[derive(Clone, Debug)]
 pub(super) struct RouteFinder {
     map: Observer,
-    goal: Option<PlaceId>,
+    goal: Option<LandmarkSpot>,
     /// Belief; `None` before the rover stands at a place for the first time.
     belief: Option<PlaceBelief>,
     exits: [bool; 4],
@@ -40,7 +40,7 @@ const WALK_STREAM: u64 = 1;
 const PATIENCE: usize = 40;
 
 impl RouteFinder {
-    pub(super) fn new(map: Observer, goal: Option<PlaceId>, seed: u64) -> Self {
+    pub(super) fn new(map: Observer, goal: Option<LandmarkSpot>, seed: u64) -> Self {
         Self {
             map,
             goal,
@@ -56,12 +56,17 @@ impl RouteFinder {
         &self.map
     }
 
-    pub(super) const fn goal(&self) -> Option<PlaceId> {
+    pub(super) const fn goal(&self) -> Option<LandmarkSpot> {
         self.goal
     }
 
     pub(super) const fn belief(&self) -> Option<&PlaceBelief> {
         self.belief.as_ref()
+    }
+
+    /// Forgets where it is: it stands between two places.
+    pub(super) fn lose_footing(&mut self) {
+        self.belief = None;
     }
 
     /// Drives to a place from anywhere, without changing the belief, and looks round.
@@ -112,7 +117,9 @@ impl RouteFinder {
 
     /// Weighs the belief by the absence of a landmark, if the rover senses none.
     pub(super) fn recognize(&mut self, here: Option<Landmark>) {
-        if let (Some(belief), Some(goal), None) = (&mut self.belief, self.goal, here) {
+        if let (Some(belief), Some(LandmarkSpot::Place(goal)), None) =
+            (&mut self.belief, self.goal, here)
+        {
             belief.weigh(|place| if place == goal { UNSENSED } else { 1.0 });
         }
     }
@@ -145,11 +152,15 @@ impl RouteFinder {
             Task::Reach(Goal::Landmark(landmark)) => {
                 match self.goal.filter(|_| landmark == Landmark::Goal) {
                     None => {
-                        return give_up(
-                            "the goal is at no place of the map: learn it with more moves",
-                        );
+                        return give_up("the goal is not on the map: learn it with more moves");
                     }
-                    to => to,
+                    Some(LandmarkSpot::Place(place)) => Some(place),
+                    Some(LandmarkSpot::Way(place, way)) => {
+                        if self.here().or_else(|| self.likeliest()) == Some(place) {
+                            return self.go_along(place, way);
+                        }
+                        Some(place)
+                    }
                 }
             }
         };
@@ -163,6 +174,14 @@ impl RouteFinder {
         match (self.here().or_else(|| self.likeliest()), to) {
             (Some(from), Some(to)) if from != to => self.follow_plan(from, to),
             _ => self.tell_apart(),
+        }
+    }
+
+    /// Goes along the way on which the goal is. That it is not there shows once the robot is past.
+    fn go_along(&mut self, from: PlaceId, way: Direction) -> Next {
+        match self.shut.insert((from, Action(way.index() as u32))) && self.exits[way.index()] {
+            true => Next::Continue(way),
+            false => give_up("the goal is not where it is on the map: learn it again"),
         }
     }
 

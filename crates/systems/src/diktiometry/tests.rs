@@ -385,7 +385,7 @@ fn wayfinder(known: &(Observer, Option<PlaceId>), seed: u64) -> Wayfinder<LaserE
         system(0).config().routines,
         eye,
         known.0.clone(),
-        known.1,
+        known.1.map(LandmarkSpot::Place),
         seed,
     )
 }
@@ -463,7 +463,7 @@ fn a_goal_that_the_map_does_not_have_is_given_up() {
     let mut system = wayfinder(&(map, None), 1);
     let goal = Task::Reach(Goal::Landmark(Landmark::Goal));
     for (task, why) in [
-        (goal, "at no place"),
+        (goal, "not on the map"),
         (Task::Reach(Goal::Place(99)), "99"),
         (Task::Explore, "learns none"),
     ] {
@@ -473,4 +473,56 @@ fn a_goal_that_the_map_does_not_have_is_given_up() {
             "{standing:?}"
         );
     }
+}
+
+/// Returns the goal in the middle of the northern corridor, where no place is.
+fn amid_the_north(robot: &Scripted) -> Option<Landmark> {
+    (near(robot.at, Point::new(2.0, 3.5))).then_some(Landmark::Goal)
+}
+
+#[test]
+fn a_goal_on_the_way_between_two_places_is_found_again() {
+    let goal = Task::Reach(Goal::Landmark(Landmark::Goal));
+    let mut robot = Landmarked::new(Scripted::new(PLACES[0], 1.0), amid_the_north);
+    let mut learner = system(2);
+    let done = pursue(&mut learner, &mut robot, Task::Explore);
+    assert_eq!(done, Standing::Done);
+    let spot = learner.spot_of(Landmark::Goal);
+    assert!(matches!(spot, Some(LandmarkSpot::Way(..))), "{spot:?}");
+
+    assert_eq!(pursue(&mut learner, &mut robot, goal), Standing::Done);
+    assert_eq!(amid_the_north(robot.robot()), Some(Landmark::Goal));
+    let home = Task::Reach(Goal::Place(0));
+    assert_eq!(pursue(&mut learner, &mut robot, home), Standing::Done);
+    assert!(near(robot.robot().at, Point::from(PLACES[0])));
+
+    let map = learner.observer().unwrap();
+    let finder = |seed| {
+        let routines = learner.config().routines;
+        Wayfinder::new(routines, LaserEye { columns: 24 }, map.clone(), spot, seed)
+    };
+    for (seed, start) in (0..).zip(STARTS) {
+        let mut robot = Landmarked::new(Scripted::new(start, 1.02), amid_the_north);
+        let mut finder = finder(seed);
+        let mut moves = 0;
+        while System::act(&mut finder, &mut robot, goal).unwrap() == Standing::UnderWay {
+            moves += 1;
+            assert!(moves < 40, "{start:?}");
+        }
+        assert_eq!(
+            amid_the_north(robot.robot()),
+            Some(Landmark::Goal),
+            "{start:?}"
+        );
+    }
+    // Where the goal is gone it gives up.
+    let mut robot = Landmarked::new(Scripted::new(STARTS[0], 1.0), |_| None);
+    let mut finder = finder(1);
+    let standing = loop {
+        match System::act(&mut finder, &mut robot, goal).unwrap() {
+            Standing::UnderWay => {}
+            standing => break standing,
+        }
+    };
+    assert!(matches!(&standing, Standing::GaveUp { why } if why.contains("not where")));
 }

@@ -3,11 +3,15 @@ use core::error::Error;
 use thiserror::Error as ThisError;
 use tolman_maps::diktiometry::{ObservedMove, ObservedMoveError, Observer, PlaceBelief, PlaceId};
 use tolman_robot::{
-    Compass, Guess, Landmark, MapView, Mapper, Position, Ranges, Robot, Rolls, SensesLandmarks,
-    Standing, System, Task, TurnTranslate,
+    Compass, Goal, Guess, Landmark, MapView, Mapper, Position, Ranges, Robot, Rolls,
+    SensesLandmarks, Standing, System, Task, TurnTranslate,
 };
 
-use super::{Eye, Next, RouteFinder, RoutineConfig, RoutineConfigError, RoutineError, Surveyor};
+use super::noticing::BreakOff;
+use super::{
+    Eye, LandmarkSpot, Next, Noticing, RouteFinder, RoutineConfig, RoutineConfigError,
+    RoutineError, Surveyor, of_robot,
+};
 
 /// A robot that was put down anywhere on a learned diktiometry: it localizes and goes to goals. It
 /// never changes the map.
@@ -18,8 +22,8 @@ use super::{Eye, Next, RouteFinder, RoutineConfig, RoutineConfigError, RoutineEr
 ///   apart. It ends when one place has 90 % of the belief, or the map tells no more of them apart.
 /// - **Reach** a place or a landmark: it localizes and follows the shortest way on the map. If that
 ///   leads elsewhere than on the map, it localizes again. A way that differed from the map is
-///   avoided as long as there are others. It gives up if no place of the map has the landmark, or
-///   if its moves do not fit the map for long.
+///   avoided as long as there are others. At a landmark on the way between two places it stops. It
+///   gives up if the map does not have the landmark, or if its moves do not fit the map for long.
 /// - **Explore**: it gives up. A [`Diktiometer`](super::Diktiometer) learns maps.
 ///
 /// `E` is the eye by which it tells places apart; the map's percepts have to fit it.
@@ -43,14 +47,14 @@ pub enum WayfinderError<E: Error + 'static> {
 }
 
 impl<E> Wayfinder<E> {
-    /// Returns a robot that knows the map of `observer`, but not its place on it. `goal` is the
-    /// place where the landmark [`Goal`](Landmark::Goal) was sensed. `seed` seeds its random walk.
+    /// Returns a robot that knows the map of `observer`, but not its place on it. `goal` is where the
+    /// landmark [`Goal`](Landmark::Goal) was sensed. `seed` seeds its random walk.
     #[must_use]
     pub fn new(
         routines: RoutineConfig,
         eye: E,
         map: Observer,
-        goal: Option<PlaceId>,
+        goal: Option<LandmarkSpot>,
         seed: u64,
     ) -> Self {
         let finder = RouteFinder::new(map, goal, seed);
@@ -82,7 +86,8 @@ impl<E> Mapper for Wayfinder<E> {
     fn map(&self) -> MapView {
         let mut view = Mapper::map(self.finder.map());
         let mut places = view.places.iter_mut();
-        if let Some(place) = places.find(|known| Some(PlaceId(known.id)) == self.finder.goal()) {
+        let at = |id| Some(LandmarkSpot::Place(PlaceId(id))) == self.finder.goal();
+        if let Some(place) = places.find(|known| at(known.id)) {
             place.landmark = Some(Landmark::Goal);
         }
         view
@@ -110,25 +115,55 @@ where
     type Failure = WayfinderError<R::Error>;
 
     fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, Self::Failure> {
-        let mut rover = Surveyor::new(robot, &self.eye, self.routines)?;
-        if self.finder.belief().is_none() {
-            self.finder.find_footing(&mut rover)?;
-        }
-        let here = rover.robot().landmark();
-        let direction = match self.finder.next(task, here) {
-            Next::Continue(direction) => direction,
-            Next::Break(standing) => return Ok(standing),
+        let sought = match (task, self.finder.goal()) {
+            // The robot goes on to the place.
+            (_, Some(LandmarkSpot::Place(_))) => None,
+            (Task::Reach(Goal::Landmark(landmark)), _) => Some(landmark),
+            _ => None,
         };
-        self.finder.go(&mut rover, direction)?;
-        let here = rover.robot().landmark();
-        self.finder.recognize(here);
-        if self.finder.is_done(task, here) {
-            return Ok(Standing::Done);
+        let noticing = Noticing::new(robot, sought);
+        let mut rover = Surveyor::new(noticing, &self.eye, self.routines)?;
+        match advance(&mut self.finder, &mut rover, task) {
+            Ok(standing) => Ok(standing),
+            Err(error) => match of_robot(error) {
+                None => {
+                    self.finder.lose_footing();
+                    Ok(Standing::Done)
+                }
+                Some(error) => Err(error.into()),
+            },
         }
-        Ok(Standing::UnderWay)
     }
 
     fn words(&self) -> String {
         self.finder.words()
     }
+}
+
+/// Makes the next move of a task.
+fn advance<R, E>(
+    finder: &mut RouteFinder,
+    rover: &mut Surveyor<Noticing<'_, R>, E>,
+    task: Task,
+) -> Result<Standing, RoutineError<BreakOff<R::Error>>>
+where
+    R: SensesLandmarks + Robot<Command = TurnTranslate, Error: Error + Send + Sync + 'static>,
+    R::Sensing: Ranges + Compass + Rolls,
+    E: Eye<R::Sensing>,
+{
+    if finder.belief().is_none() {
+        finder.find_footing(rover)?;
+    }
+    let here = rover.robot().landmark();
+    let direction = match finder.next(task, here) {
+        Next::Continue(direction) => direction,
+        Next::Break(standing) => return Ok(standing),
+    };
+    finder.go(rover, direction)?;
+    let here = rover.robot().landmark();
+    finder.recognize(here);
+    if finder.is_done(task, here) {
+        return Ok(Standing::Done);
+    }
+    Ok(Standing::UnderWay)
 }

@@ -21,7 +21,7 @@ use tolman_maze::Direction;
 use tolman_papers::diktiometry::drawing::map_over_world;
 use tolman_robot::{Guess, Landmark, MapView, Mapper, Scan, SensesLandmarks, Standing, Task};
 use tolman_sim::Bounds;
-use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig, Wayfinder};
+use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig, LandmarkSpot, Wayfinder};
 use tolman_systems::stream;
 
 use crate::start::Start;
@@ -174,7 +174,7 @@ impl SystemEntry for DiktiometryEntry {
         let mut routines = robot.routines(office.config().corridor_width);
         routines.doorway_width = Some(office.config().doorway_width());
         let steps = setup.steps.unwrap_or(100_000);
-        // The goal is the place where the robot sensed it while learning.
+        // The goal is where the robot came to it while learning.
         let goal = file.goal();
         let name = setup.robot(&[config.robot.name()])?;
         if let Some(start) = setup.start {
@@ -437,12 +437,11 @@ impl LearnedMap for Surveyed {
             })
         };
         let from = from.map_or(Ok(observer.place()), place)?;
-        let to = match to {
-            Some(to) => place(to)?,
-            None => self
-                .file
-                .goal()
-                .ok_or_else(|| anyhow!("the goal is not on this map: give --to PLACE"))?,
+        let (to, beyond) = match (to, self.file.goal()) {
+            (Some(to), _) => (place(to)?, None),
+            (None, Some(LandmarkSpot::Place(goal))) => (goal, None),
+            (None, Some(LandmarkSpot::Way(last, way))) => (last, Some(way)),
+            (None, None) => return Err(anyhow!("the goal is not on this map: give --to PLACE")),
         };
         let Some(plan) = observer.plan(from, to) else {
             return Ok(None);
@@ -462,7 +461,8 @@ impl LearnedMap for Surveyed {
                 100.0 * likely
             )
         });
-        Ok(Some(steps.collect()))
+        let beyond = beyond.map(|way| format!("{way}, to the goal on the way"));
+        Ok(Some(steps.chain(beyond).collect()))
     }
 
     fn complaint(&self, _terrain: &Terrain) -> Result<Option<String>, Error> {

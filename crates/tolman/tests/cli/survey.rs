@@ -165,8 +165,24 @@ fn a_robot_that_is_put_down_anywhere_drives_to_the_goal() {
     carry_out(&format!("{drive} 40,4")).refused(2, &["(40, 4) m", "start in a corridor"]);
     carry_out("learn --system diktiometry --maze ring.maze --set moves=1 --out start.json")
         .failed(1, &["places were visited"]);
-    let told = ["the goal is at no place of the map"];
+    let told = ["the goal is not on the map"];
     carry_out("drive --map start.json --maze ring.maze --start random").refused(1, &told);
+}
+
+#[test]
+fn a_goal_between_two_places_is_planned_and_driven_to() {
+    let folder = folder("amid");
+    let amid = RING.replace("        G |", "    G     |");
+    fs::write(folder.join("amid.maze"), amid).unwrap();
+    let carry_out = |line: &str| tolman_in(&folder, &line.split(' ').collect::<Vec<_>>());
+    carry_out("learn --system diktiometry --maze amid.maze --set colours=6 --set moves=80 --out amid.json")
+        .done();
+    let planned = carry_out("map plan amid.json");
+    assert!(planned.done().contains("to the goal on the way"));
+    for start in ["", " --start random --seed 3", " --start random --seed 4"] {
+        let told = carry_out(&format!("drive --map amid.json --maze amid.maze{start}"));
+        assert!(told.done().contains("diktiometry is done"), "{start}");
+    }
 }
 
 #[test]
