@@ -151,8 +151,8 @@ impl SurveyFile {
         })
     }
 
-    /// Returns where on the map the robot came to a goal of the maze, if it did: at a place, or else
-    /// on the way between two.
+    /// Returns where on the map the robot came to a goal of the maze, if it did: at a place, or
+    /// else on the way between two.
     #[must_use]
     pub fn goal(&self) -> Option<LandmarkSpot> {
         let paths = &self.observer.map().paths;

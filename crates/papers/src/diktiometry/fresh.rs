@@ -231,8 +231,8 @@ record! {
         purity: f64 => higher("purity").share().decimals(4),
         /// Number of places on the map per visited true place.
         places_over_true: f64 => lower("places / true places").at_least(0).decimals(2),
-        /// Whether no place is confused with another, and at least 95 % of the visited places are on
-        /// the map once.
+        /// Whether no place is confused with another, and at least 95 % of the visited places are
+        /// on the map once.
         places_once: bool => higher("places once"),
         /// Share of the true places that were visited.
         seen: f64 => higher("true places visited").share().decimals(3),

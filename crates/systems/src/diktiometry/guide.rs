@@ -165,8 +165,8 @@ impl Guide {
         }
     }
 
-    /// Remembers that `landmark` was sensed on the rover's last move, from `place`. A place where it
-    /// was sensed is the better spot.
+    /// Remembers that `landmark` was sensed on the rover's last move, from `place`. A place where
+    /// it was sensed is the better spot.
     pub(super) fn recognize_on_way(&mut self, landmark: Option<Landmark>, place: Option<PlaceId>) {
         if let (Some(landmark), Some(place), Some(came)) = (landmark, place, self.came)
             && !matches!(self.spot_of(landmark), Some(LandmarkSpot::Place(_)))

@@ -47,8 +47,8 @@ pub enum WayfinderError<E: Error + 'static> {
 }
 
 impl<E> Wayfinder<E> {
-    /// Returns a robot that knows the map of `observer`, but not its place on it. `goal` is where the
-    /// landmark [`Goal`](Landmark::Goal) was sensed. `seed` seeds its random walk.
+    /// Returns a robot that knows the map of `observer`, but not its place on it. `goal` is where
+    /// the landmark [`Goal`](Landmark::Goal) was sensed. `seed` seeds its random walk.
     #[must_use]
     pub fn new(
         routines: RoutineConfig,
