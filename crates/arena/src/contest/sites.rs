@@ -44,7 +44,9 @@ impl Sites {
         let is_near =
             |guess: &&Guess| site(guess.at).is_some_and(|site| (site - here).norm() < near);
         let guesses = belief.iter().filter(is_near);
-        guesses.fold(0.0, |sum, guess| sum + guess.weight)
+        // Sums of rounded probabilities may exceed 1.
+        let sum = guesses.fold(0.0, |sum, guess| sum + guess.weight);
+        sum.min(1.0)
     }
 }
 
