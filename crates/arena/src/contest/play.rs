@@ -223,7 +223,7 @@ impl Located {
     /// its mind. `None` if it did not drive.
     #[must_use]
     pub fn chance_after(&self, actions: usize) -> Option<f64> {
-        let kept = self.chances.get(actions - 1);
+        let kept = self.chances.get(actions.checked_sub(1)?);
         kept.or(self.chances.last()).copied()
     }
 
