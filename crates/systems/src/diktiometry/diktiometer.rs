@@ -5,11 +5,11 @@ use tolman_maps::diktiometry::{
     Config, FirstPlace, ObservedMove, ObservedMoveError, Observer, PlaceId, StartError,
 };
 use tolman_robot::{
-    Compass, Goal, Guess, Landmark, MapView, Mapper, Ranges, Robot, Rolls, SensesLandmarks,
-    Standing, System, Task, TurnTranslate,
+    Compass, Guess, Landmark, MapView, Mapper, Ranges, Robot, Rolls, SensesLandmarks, Standing,
+    System, Task, TurnTranslate,
 };
 
-use super::noticing::BreakOff;
+use super::noticing::{BreakOff, sought};
 use super::{
     Eye, Guide, LandmarkSpot, MapError, Next, Noticing, RoutineConfig, RoutineConfigError,
     RoutineError, Surveyor, of_mapper,
@@ -214,17 +214,19 @@ where
     type Failure = DiktiometerError<R::Error>;
 
     fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, Self::Failure> {
-        let sought = match task {
-            Task::Reach(Goal::Landmark(landmark)) => self.sought(landmark),
-            Task::Reach(Goal::Place(_)) | Task::Explore | Task::Localize => None,
-        };
+        let sought = sought(task, |landmark| self.guide.spot_of(landmark));
         let noticing = Noticing::new(robot, sought);
         let mut rover = Surveyor::new(noticing, &self.eye, self.config.routines)?;
         let (guide, visited) = (&mut self.guide, &mut self.visited);
         match advance(guide, visited, &self.config.mapper, &mut rover, task) {
             Ok(standing) => Ok(standing),
             Err(error) => match of_mapper(error) {
-                None => Ok(Standing::Done),
+                None => {
+                    if let Some(landmark) = sought {
+                        self.guide.broke_off_at(landmark);
+                    }
+                    Ok(Standing::Done)
+                }
                 Some(error) => Err(error.into()),
             },
         }
@@ -232,17 +234,6 @@ where
 
     fn words(&self) -> String {
         self.guide.words()
-    }
-}
-
-impl<E> Diktiometer<E> {
-    /// Returns the landmark at which to stop on the way. Where it is at a place, the robot goes on
-    /// to the place.
-    fn sought(&self, landmark: Landmark) -> Option<Landmark> {
-        match self.spot_of(landmark) {
-            Some(LandmarkSpot::Place(_)) => None,
-            Some(LandmarkSpot::Way(..)) | None => Some(landmark),
-        }
     }
 }
 

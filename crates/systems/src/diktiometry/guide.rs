@@ -175,6 +175,14 @@ impl Guide {
         }
     }
 
+    /// Remembers that the rover broke off at `landmark`, on the way that was under way.
+    pub(super) fn broke_off_at(&mut self, landmark: Landmark) {
+        if let (Some(way), Some(observer)) = (self.under_way, self.observer()) {
+            let place = observer.place();
+            self.remember(landmark, LandmarkSpot::Way(place, way));
+        }
+    }
+
     /// Remembers where `landmark` is.
     pub(super) fn remember(&mut self, landmark: Landmark, spot: LandmarkSpot) {
         self.landmarks.insert(landmark, spot);

@@ -3,7 +3,7 @@ use core::error::Error;
 use thiserror::Error as ThisError;
 use tolman_maps::diktiometry::PlaceId;
 use tolman_maze::Direction;
-use tolman_robot::{Landmark, Robot, SensesLandmarks};
+use tolman_robot::{Goal, Landmark, Robot, SensesLandmarks, Task};
 
 use super::{MapError, RoutineError};
 
@@ -81,6 +81,19 @@ where
     fn landmark(&self) -> Option<Landmark> {
         self.robot.landmark()
     }
+}
+
+/// Returns the landmark of a task at which a robot breaks off on its way. Where `spot_of` has it at
+/// a place, the robot goes on to the place.
+pub(super) fn sought(
+    task: Task,
+    spot_of: impl FnOnce(Landmark) -> Option<LandmarkSpot>,
+) -> Option<Landmark> {
+    let Task::Reach(Goal::Landmark(landmark)) = task else {
+        return None;
+    };
+    let is_at_a_place = matches!(spot_of(landmark), Some(LandmarkSpot::Place(_)));
+    (!is_at_a_place).then_some(landmark)
 }
 
 /// Returns the error of the robot, or `None` if it broke off at the landmark that it seeks.

@@ -492,6 +492,8 @@ fn a_goal_on_the_way_between_two_places_is_found_again() {
 
     assert_eq!(pursue(&mut learner, &mut robot, goal), Standing::Done);
     assert_eq!(amid_the_north(robot.robot()), Some(Landmark::Goal));
+    // It has not forgotten where that was.
+    assert_eq!(learner.spot_of(Landmark::Goal), spot);
     let home = Task::Reach(Goal::Place(0));
     assert_eq!(pursue(&mut learner, &mut robot, home), Standing::Done);
     assert!(near(robot.robot().at, Point::from(PLACES[0])));

@@ -3,11 +3,11 @@ use core::error::Error;
 use thiserror::Error as ThisError;
 use tolman_maps::diktiometry::{ObservedMove, ObservedMoveError, Observer, PlaceBelief, PlaceId};
 use tolman_robot::{
-    Compass, Goal, Guess, Landmark, MapView, Mapper, Position, Ranges, Robot, Rolls,
-    SensesLandmarks, Standing, System, Task, TurnTranslate,
+    Compass, Guess, Landmark, MapView, Mapper, Position, Ranges, Robot, Rolls, SensesLandmarks,
+    Standing, System, Task, TurnTranslate,
 };
 
-use super::noticing::BreakOff;
+use super::noticing::{BreakOff, sought};
 use super::{
     Eye, LandmarkSpot, Next, Noticing, RouteFinder, RoutineConfig, RoutineConfigError,
     RoutineError, Surveyor, of_robot,
@@ -115,12 +115,7 @@ where
     type Failure = WayfinderError<R::Error>;
 
     fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, Self::Failure> {
-        let sought = match (task, self.finder.goal()) {
-            // The robot goes on to the place.
-            (_, Some(LandmarkSpot::Place(_))) => None,
-            (Task::Reach(Goal::Landmark(landmark)), _) => Some(landmark),
-            _ => None,
-        };
+        let sought = sought(task, |_| self.finder.goal());
         let noticing = Noticing::new(robot, sought);
         let mut rover = Surveyor::new(noticing, &self.eye, self.routines)?;
         match advance(&mut self.finder, &mut rover, task) {
