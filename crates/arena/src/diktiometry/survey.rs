@@ -73,7 +73,7 @@ pub fn mapper(office: &Office, robot: &SurveyorConfig) -> Config {
     config.world = WorldKind::Static;
     match robot.sight {
         PlaceCue::Camera { columns, .. } if office.config().colours > 1 => {
-            // A doorway does not look like the corners beside it, and those are a pitch apart or
+            // A doorway has other exits than the corners beside it, and those are a pitch apart or
             // more.
             config.alike_separation = separation.max(office.config().pitch());
             config.search.width = 4.0 * config.alike_separation;

@@ -6,7 +6,8 @@ use tolman_geom::PointBox;
 
 use super::{
     Choice, Contradiction, Culprit, Fate, Ground, Hints, LinkId, Matcher, ObservedMove, Observer,
-    PlaceId, Projection, Similarity, Successor, Track, elide_place, remember, trusted_odometry,
+    PlaceId, Projection, Similarity, Successor, Track, WorldKind, elide_place, remember,
+    trusted_odometry,
 };
 
 /// Number of earlier places, before the last, that are related directly to a new one.
@@ -99,8 +100,9 @@ impl Observer {
             let [(start, begins), (end, ends)] = [from, to].map(|place| self.map.site(place));
             let estimate = begins + way - ends;
             // A way that contradicts the relations was told of as a move already.
-            if self.map.reference.allows(start, end, estimate).is_ok() {
-                let _ = self.map.reference.relate(start, end, estimate);
+            let is_allowed = self.map.reference.allows(start, end, estimate).is_ok();
+            if is_allowed || self.config.world == WorldKind::Static {
+                let _ = self.relate(start, end, estimate);
             }
         }
     }

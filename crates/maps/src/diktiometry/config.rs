@@ -7,7 +7,7 @@ use core::ops::{RangeBounds, RangeInclusive};
 use thiserror::Error;
 use tolman_geom::{Interval, PointBox};
 
-use super::Action;
+use super::{Action, Exits, Similarity};
 
 /// Knowledge of the observer about robot and world, and the choice of its parts.
 ///
@@ -22,8 +22,9 @@ pub struct Config {
     pub actions: Vec<ActionKind>,
     /// δ_sep: minimum distance of two places, m, > 0 (*Geometric constraints*).
     pub separation: f64,
-    /// Minimum distance of two places that look alike, m; at least `separation`. Where views tell
-    /// places apart, this lets boxes be wider.
+    /// Minimum distance of two places that look alike and, if the world is static, have the same
+    /// [`Exits`], m; at least `separation`. Where these tell places apart, this lets boxes be
+    /// wider.
     pub alike_separation: f64,
     /// Measure of the distances above.
     #[cfg_attr(feature = "serde", serde(default))]
@@ -538,6 +539,25 @@ impl Config {
         self.alike_separation * (1.0 - self.shared_scale)
     }
 
+    /// Returns the minimum distance of two places with these looks and exits, in metres of
+    /// odometry.
+    pub(super) fn least_distance_of(&self, look: Similarity, exits: [&Exits; 2]) -> f64 {
+        match look {
+            Similarity::Alike if self.may_be_same(exits) => self.least_alike_distance(),
+            _ => self.least_distance(),
+        }
+    }
+
+    /// Returns whether a place may have both of these exits. Where the world may change, it may.
+    pub(super) fn may_be_same(&self, exits: [&Exits; 2]) -> bool {
+        match (self.world, exits) {
+            (WorldKind::Static, [Exits::Seen(one), Exits::Seen(other)]) => {
+                one.len() == other.len() && one.iter().all(|exit| other.contains(exit))
+            }
+            _ => true,
+        }
+    }
+
     /// Checks that the fields are in their ranges.
     ///
     /// # Errors
@@ -880,5 +900,24 @@ mod tests {
         (config.alike_separation, config.shared_scale) = (3.0, 0.25);
         assert!((config.least_distance() - 1.5).abs() < 1e-12);
         assert!((config.least_alike_distance() - 2.25).abs() < 1e-12);
+    }
+
+    #[test]
+    fn places_of_a_static_world_with_other_exits_do_not_look_alike() {
+        let mut config = Config::new(Config::compass_actions(), 2.0);
+        config.alike_separation = 4.0;
+        let seen = |actions: [u32; 2]| Exits::Seen(actions.map(Action).into());
+        let (way, corner) = (seen([0, 2]), seen([0, 1]));
+        for (world, exits, alike) in [
+            (WorldKind::Static, [&way, &corner], 2.0),
+            (WorldKind::Static, [&way, &seen([2, 0])], 4.0),
+            (WorldKind::Static, [&way, &Exits::Unknown], 4.0),
+            (WorldKind::Changing, [&way, &corner], 4.0),
+        ] {
+            config.world = world;
+            let least = |look| config.least_distance_of(look, exits);
+            assert!((least(Similarity::Alike) - alike).abs() < 1e-12);
+            assert!((least(Similarity::Unlike) - 2.0).abs() < 1e-12);
+        }
     }
 }

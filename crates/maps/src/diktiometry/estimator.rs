@@ -7,8 +7,8 @@ use tolman_geom::PointBox;
 use super::{
     Action, ActiveFrame, Candidate, Choice, Contradiction, Culprit, GeometricIndexing, Hints,
     LinkId, LinkStatus, Matcher, ObservedMove, Observer, PlaceId, Predicted, Projection,
-    Similarity, Situation, StepReport, Track, TrackEntry, TrackId, TrackReport, Use, choose,
-    expected, moved, plies, search,
+    Similarity, Situation, StepReport, Track, TrackEntry, TrackId, TrackReport, Use, WorldKind,
+    choose, expected, moved, plies, search,
 };
 
 /// Whether a track may change the map. Only the best track may, so that a dying hypothesis does not
@@ -158,6 +158,8 @@ impl Observer {
             map: &self.map,
             config: &self.config,
             percept: step.percept.as_ref(),
+            exits: &step.exits,
+            led: self.well_tried(track.place, step),
             astray: projection.astray,
             traversals: self.traversals(projection),
             confidence: track.confidence,
@@ -167,6 +169,25 @@ impl Observer {
             Use::Off => Vec::new(),
         };
         choose(&situation, &expected, || self.geometric(track, projection))
+    }
+
+    /// Returns the place of a static world to which a move leads, if the way was gone [`TRIED`]
+    /// times and the exits are that place's. Other odometry is an outlier then, even if it fits
+    /// another place.
+    fn well_tried(&self, from: PlaceId, step: &ObservedMove) -> Option<PlaceId> {
+        if self.config.world == WorldKind::Changing {
+            return None;
+        }
+        let gone = |from, action, to| {
+            let link = self.map.paths.between(from, action, to);
+            link.map_or(0, |link| self.map.link(link).traversed)
+        };
+        let ways = self.map.paths.along(from, step.action);
+        let (_, way) = ways.max_by_key(|(_, way)| way.traversed)?;
+        let back = self.config.reverse(step.action);
+        let times = way.traversed + back.map_or(0, |back| gone(way.to, back, from));
+        let exits = [&self.map.place(way.to).exits, &step.exits];
+        (times >= TRIED && self.config.may_be_same(exits)).then_some(way.to)
     }
 
     fn geometric(&self, track: &Track, projection: &Projection) -> Vec<Vec<Candidate>> {
@@ -282,6 +303,9 @@ pub(super) fn trusted_odometry(step: &ObservedMove, choice: &Choice, matcher: Ma
         PointBox::UNBOUNDED
     }
 }
+
+/// Number of times that a way of a static world is gone, to and fro, until it leads to one place.
+const TRIED: u32 = 2;
 
 /// Confidence of a track that begins because a place looks like the robot's view.
 const SUPPOSED: f64 = 0.5;

@@ -37,8 +37,8 @@ pub enum MoveOutcome {
     Blocked,
 }
 
-/// Actions that the robot believes it can try. Used for plans, advice and the counts of links,
-/// never to recognize a place.
+/// Actions that the robot believes it can try. Used for plans, advice and the counts of links. A
+/// place is not recognized by them, but in a static world they tell it from one nearby.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub enum Exits {

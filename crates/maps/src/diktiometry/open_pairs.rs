@@ -2,7 +2,7 @@ use alloc::vec::Vec;
 
 use tolman_geom::{Point, PointBox};
 
-use super::{Action, Diktiometry, Exits, Observer, PlaceId, WorldKind, share_a_view};
+use super::{Action, Diktiometry, Observer, PlaceId, share_a_view};
 
 /// Two places of a map that may be one, and what would decide whether they are.
 ///
@@ -105,14 +105,8 @@ impl Observer {
     fn seem_one(&self, a: PlaceId, b: PlaceId) -> bool {
         let map: &Diktiometry = &self.map;
         let [one, other] = [a, b].map(|place| map.place(place));
-        let same_exits = match (&one.exits, &other.exits) {
-            (Exits::Seen(one), Exits::Seen(other)) if self.config.world == WorldKind::Static => {
-                one.iter().all(|exit| other.contains(exit)) && one.len() == other.len()
-            }
-            _ => true,
-        };
         let offset = map.related(a, b);
-        same_exits
+        self.config.may_be_same([&one.exits, &other.exits])
             && offset.is_none_or(|offset| offset.contains(Point::origin()))
             && share_a_view(one, other, &self.config.percepts)
     }

@@ -1,14 +1,17 @@
 //! The reference graph: "nodes represent local coordinate frames, with links giving known geometric
 //! relations".
 
+mod dispute;
 mod search;
 
+use alloc::collections::BTreeMap;
 use alloc::vec::Vec;
 use core::cmp::Ordering;
 
 use tolman_geom::PointBox;
 
 use super::{CoverageGrid, FrameId, PlaceId};
+use dispute::Dispute;
 pub(super) use search::{Reached, search};
 
 /// A local frame. All frames lie along the axes of the compass, so that a relation is a
@@ -43,7 +46,8 @@ impl Frame {
 pub struct Relation {
     /// The other frame.
     pub to: FrameId,
-    /// Position of the other frame's origin in this frame, m: the intersection of all estimates.
+    /// Position of the other frame's origin in this frame, m: the intersection of all estimates
+    /// that agree.
     pub position: PointBox,
     /// Smallest box that holds all estimates, m.
     pub envelope: PointBox,
@@ -77,6 +81,8 @@ pub struct Excluded {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReferenceGraph {
     pub(super) frames: Vec<Frame>,
+    /// Estimates against relations, by the lower and the higher id of the two frames.
+    disputes: BTreeMap<[FrameId; 2], Dispute>,
 }
 
 impl ReferenceGraph {
@@ -181,6 +187,25 @@ impl ReferenceGraph {
         relation.estimates = relation.estimates.saturating_add(1);
     }
 
+    /// Notes an estimate that [`Self::relate`] found to contradict the relation. The relation gives
+    /// way once more estimates contradict it and agree with each other than it rests on: one of
+    /// its own was an outlier.
+    ///
+    /// Beyond the paper, whose intersection of all estimates keeps the first for good.
+    pub(super) fn dispute(&mut self, from: FrameId, to: FrameId, estimate: PointBox) {
+        let ends = [from.min(to), from.max(to)];
+        let frame = &mut self.frames[ends[0].index()];
+        let Ok(at) = frame.find(ends[1]) else {
+            return;
+        };
+        let estimate = if from < to { estimate } else { -estimate };
+        let dispute = self.disputes.entry(ends);
+        dispute
+            .and_modify(|dispute| dispute.join(estimate))
+            .or_insert_with(|| Dispute::begun(estimate))
+            .settle(&mut frame.above[at]);
+    }
+
     /// Widens a relation to the envelope of all estimates, because one of the estimates was wrong.
     pub(super) fn open(&mut self, from: FrameId, to: FrameId) {
         let frame = &mut self.frames[from.min(to).index()];
@@ -200,5 +225,6 @@ impl ReferenceGraph {
             let others = &mut self.frames[other.index()].above;
             others.retain(|relation| relation.to != id);
         }
+        self.disputes.retain(|ends, _| !ends.contains(&id));
     }
 }

@@ -117,6 +117,7 @@ pub(super) fn restructure(
             done.extend(transients::elide(map, place, occupied, config));
             near = geometric::around(map, place);
             noted.extend(winding::round(map, place, config));
+            noted.extend(one_way::doubles(map, place, config));
         }
         for pair in noted.into_iter().chain(geometric::meeting(&near)) {
             let may_merge =
@@ -128,7 +129,7 @@ pub(super) fn restructure(
                 continue;
             }
             if let Some(by) = accepted(map, &pair, config)
-                && let Some(kept) = merge::merge(map, pair.a, pair.b, config)
+                && let Some(kept) = merge::merge(map, &pair, config)
             {
                 let merged = if kept == pair.a { pair.b } else { pair.a };
                 done.push(Restructured::Merged { kept, merged, by });

@@ -7,7 +7,8 @@ use alloc::vec::Vec;
 use tolman_geom::{Point, PointBox};
 
 use super::{
-    Action, Estim, Excluded, Exits, Expected, LinkId, Observer, Place, PlaceId, Projection,
+    Action, Estim, Excluded, Exits, Expected, FrameId, LinkId, Observer, Place, PlaceId,
+    Projection, WorldKind,
 };
 
 impl Observer {
@@ -56,15 +57,35 @@ impl Observer {
         to: PlaceId,
         displacement: PointBox,
     ) -> Result<(), Excluded> {
-        let map = &mut self.map;
+        let map = &self.map;
         let [(start, begins), (end, ends)] = [from, to].map(|place| map.site(place));
         let frames = begins + displacement - ends;
-        map.reference.relate(start, end, frames)?;
+        self.relate(start, end, frames)?;
+        let map = &mut self.map;
         let end_from_start = map.reference.known(start, end).unwrap_or(frames);
         // Forward, as the paper does, and backward.
         contract(map.place_mut(to), begins + displacement - end_from_start);
         contract(map.place_mut(from), ends + end_from_start - displacement);
         Ok(())
+    }
+
+    /// Takes in an estimate of the displacement between two frames.
+    ///
+    /// # Errors
+    /// [`Excluded`] if it contradicts their known relation.
+    pub(super) fn relate(
+        &mut self,
+        from: FrameId,
+        to: FrameId,
+        estimate: PointBox,
+    ) -> Result<(), Excluded> {
+        let reference = &mut self.map.reference;
+        let allowed = reference.relate(from, to, estimate);
+        // Where the world may change, the later estimate may be of another way.
+        if allowed.is_err() && self.config.world == WorldKind::Static {
+            reference.dispute(from, to, estimate);
+        }
+        allowed
     }
 
     /// Records which actions seem possible at a place. Links of all others were expected in vain.

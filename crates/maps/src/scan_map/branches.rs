@@ -32,9 +32,9 @@ pub(super) struct Branch {
     pub(super) narrowest: f64,
 }
 
-/// Maximum length of a spur that leads into a corner, in clearances where it begins. It would be √2
-/// less in a square room, and is 1.9 in a corridor of one more square.
-const SPUR: f64 = 1.5;
+/// Maximum length of a spur that leads into a corner, in clearances where it begins. In 12 families
+/// of mazes, corners had at most 1.14 and dead ends of one square at least 1.2, mostly 1.9.
+const SPUR: f64 = 1.3;
 /// Maximum distance of knots that are one place, as a share of the sum of their clearances. Two
 /// junctions side by side are at least half of it apart.
 const SAME: f64 = 0.35;
@@ -478,7 +478,7 @@ mod tests {
 
     #[test]
     fn short_spurs_are_pruned_and_their_knots_dissolve() {
-        // At a clearance of 0.2 m and a cell a spur is shorter than 1.5 times as much.
+        // At a clearance of 0.2 m and a cell a spur is shorter than SPUR times as much.
         let most = SPUR * (CELL + 0.2) / CELL;
         let spur = |length: usize| {
             let mut rows = alloc::vec![" ".repeat(81); length];

@@ -80,8 +80,15 @@ pub(crate) fn choose(
         choice.excluded = expected.first().copied();
     }
     let mut continues = first.iter().filter(|one| one.matcher == Matcher::Continue);
+    // Odometry excludes the place where the action always led: odometry is wrong.
+    let is_led = !first.iter().any(Chosen::is_normal)
+        && first
+            .iter()
+            .any(|one| one.place().is_some() && one.place() == situation.led);
     // Where the robot can be at no other place, others could only turn out to be the same.
-    let enough = if situation.precedes(Matcher::Continue, Matcher::Link, 0) {
+    let enough = if is_led {
+        true
+    } else if situation.precedes(Matcher::Continue, Matcher::Link, 0) {
         continues.next().is_some()
     } else {
         continues.any(|one| one.is_certain)

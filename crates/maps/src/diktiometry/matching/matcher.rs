@@ -3,8 +3,8 @@ use alloc::vec::Vec;
 use super::engine::Chosen;
 use super::view::agrees;
 use crate::diktiometry::{
-    Candidate, Config, Diktiometry, Expectation, Identity, PlaceId, Signature, Similarity, Use,
-    WorldKind,
+    Candidate, Config, Diktiometry, Exits, Expectation, Identity, PlaceId, Signature, Similarity,
+    Use, WorldKind,
 };
 
 /// Matcher by which a track came to its place.
@@ -30,6 +30,10 @@ pub(crate) struct Situation<'a> {
     pub(crate) map: &'a Diktiometry,
     pub(crate) config: &'a Config,
     pub(crate) percept: Option<&'a Signature>,
+    pub(crate) exits: &'a Exits,
+    /// Place where the action led several times, in a static world. If odometry excludes it, no
+    /// other is looked for.
+    pub(crate) led: Option<PlaceId>,
     /// Distance since the last CONTINUE, m.
     pub(crate) astray: f64,
     /// Number of earlier traversals of the region just traversed.
@@ -69,10 +73,7 @@ pub(super) fn find(
     let config = situation.config;
     let place = situation.map.place(candidate.place);
     let look = Similarity::of(agrees(place, situation.percept, &config.percepts));
-    let least_distance = match look {
-        Similarity::Alike => config.least_alike_distance(),
-        Similarity::Unlike => config.least_distance(),
-    };
+    let least_distance = config.least_distance_of(look, [&place.exits, situation.exits]);
     let is_certain = candidate.is_certain(config.apart, least_distance);
     match applicable(candidate, situation, look, is_certain) {
         Applicable::Matcher(matcher) => Some(Chosen {

@@ -4,10 +4,11 @@ use thiserror::Error;
 use tolman_geom::PointBox;
 
 use super::look_evidence::look_alike;
+use super::winding_evidence::exits;
 use super::{
     Identities, JournalSpan, LookEvidence, MergeCertificate, MergeProof, WindingEvidence, connect,
 };
-use crate::diktiometry::{Config, Journal, MoveOutcome, Percepts};
+use crate::diktiometry::{Config, Journal, MoveOutcome, Percepts, Similarity};
 
 /// Reason why certificates do not hold. Each names the first that does not, from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
@@ -342,11 +343,8 @@ pub(super) fn least_distance([one, other]: [usize; 2], config: &Config, journal:
         Percepts::None => true,
         Percepts::Signatures(_) => look_alike(one, other, config, journal),
     };
-    if may_be_alike {
-        config.least_alike_distance()
-    } else {
-        config.least_distance()
-    }
+    let exits = [one, other].map(|visit| exits(visit, journal));
+    config.least_distance_of(Similarity::of(may_be_alike), exits)
 }
 
 #[cfg(test)]

@@ -26,7 +26,7 @@ impl Corridors for KnownCorridors<'_> {
 }
 
 /// Returns the actions that the robot saw to be possible at a visit.
-fn exits(visit: usize, journal: &Journal) -> &Exits {
+pub(super) fn exits(visit: usize, journal: &Journal) -> &Exits {
     match visit.checked_sub(1) {
         None => &journal.start.exits,
         Some(number) => journal

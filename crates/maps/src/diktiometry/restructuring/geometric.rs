@@ -5,10 +5,10 @@ use alloc::vec::Vec;
 use tolman_geom::{Point, PointBox};
 
 use super::look_agreement::{Agreement, agreement, offset_anywhere};
-use super::{Diagnosis, Verdict};
+use super::{Diagnosis, Verdict, one_way};
 use crate::diktiometry::{
     Config, Diktiometry, Estim, GeometricMerge, Ground, MergeNote, PlaceId, Use, learn_of_two,
-    merge_estims, search, share_a_view, similarity, wanted_anywhere,
+    merge_estims, search, similarity, wanted_anywhere,
 };
 
 /// Two places that may be one.
@@ -106,7 +106,13 @@ pub(super) fn noted(map: &mut Diktiometry, place: PlaceId, config: &Config) -> V
 pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict {
     match config.restructuring.geometric_merge {
         GeometricMerge::Off => Verdict::Abstain,
-        _ if !pair.offset.contains(Point::origin()) => Verdict::Reject,
+        _ if !pair.offset.contains(Point::origin()) => {
+            if one_way::overrules_bounds(map, pair, config) {
+                Verdict::Abstain
+            } else {
+                Verdict::Reject
+            }
+        }
         GeometricMerge::Narrow => {
             let most = config.apart.most(pair.offset);
             Verdict::propose_if(most < least_distance(map, pair, config))
@@ -118,11 +124,8 @@ pub(super) fn merge(map: &Diktiometry, pair: &Pair, config: &Config) -> Verdict 
 /// Returns the minimum distance of the two places, m, as if they were different.
 fn least_distance(map: &Diktiometry, pair: &Pair, config: &Config) -> f64 {
     let [a, b] = [pair.a, pair.b].map(|place| map.place(place));
-    if share_a_view(a, b, &config.percepts) {
-        config.least_alike_distance()
-    } else {
-        config.least_distance()
-    }
+    let look = similarity(a, b, &config.percepts);
+    config.least_distance_of(look, [&a.exits, &b.exits])
 }
 
 /// Returns whether the estims of two places merge into one mode. "When two places have estim sets

@@ -1,24 +1,26 @@
 use alloc::vec::Vec;
 
-use tolman_geom::PointBox;
+use tolman_geom::{Point, PointBox};
 
+use super::geometric::Pair;
 use crate::diktiometry::{
     Config, Diktiometry, Exits, Fate, Link, LinkId, Percepts, PlaceId, Relation, Successor,
     merge_estims,
 };
 
 /// Merges two places into the older one. Returns `None`, with nothing changed, if the relations of
-/// their frames forbid it.
+/// their frames forbid it. If the two exclude each other by their bounds, it drops the relations of
+/// the younger that forbid it.
 ///
 /// O(relations and links of the younger · log degree of the older).
-pub(super) fn merge(
-    map: &mut Diktiometry,
-    a: PlaceId,
-    b: PlaceId,
-    config: &Config,
-) -> Option<PlaceId> {
-    let (kept, lost) = (a.min(b), a.max(b));
-    let shift = join_frames(map, kept, lost)?;
+pub(super) fn merge(map: &mut Diktiometry, pair: &Pair, config: &Config) -> Option<PlaceId> {
+    let (kept, lost) = (pair.a.min(pair.b), pair.a.max(pair.b));
+    let bounds = if pair.offset.contains(Point::origin()) {
+        Bounds::Hold
+    } else {
+        Bounds::Broken
+    };
+    let shift = join_frames(map, kept, lost, bounds)?;
     move_links(map, kept, lost);
     let gone = map.paths.bury(lost, Fate::MergedInto(kept));
     let place = map.place_mut(kept);
@@ -56,10 +58,22 @@ pub(super) fn merge(
     Some(kept)
 }
 
+/// Whether a bound of the relations of two places was broken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Bounds {
+    Hold,
+    Broken,
+}
+
 /// Puts both places at one point and transfers the relations of one's frame to the other's. Returns
 /// the position of the abandoned frame in that of `kept`. `None`, with nothing done, if that
-/// contradicts a relation.
-fn join_frames(map: &mut Diktiometry, kept: PlaceId, lost: PlaceId) -> Option<PointBox> {
+/// contradicts a relation, unless a bound was broken.
+fn join_frames(
+    map: &mut Diktiometry,
+    kept: PlaceId,
+    lost: PlaceId,
+    bounds: Bounds,
+) -> Option<PointBox> {
     let [(home, there), (left, here)] = [kept, lost].map(|place| map.site(place));
     let shift = if home == left {
         PointBox::ORIGIN
@@ -67,20 +81,24 @@ fn join_frames(map: &mut Diktiometry, kept: PlaceId, lost: PlaceId) -> Option<Po
         there - here
     };
     let both = there.intersection(here + shift)?;
-    map.reference.allows(home, left, shift).ok()?;
     let empties = home != left && map.frame(left).places.len() == 1;
+    let may_drop = empties && bounds == Bounds::Broken;
+    if !may_drop {
+        map.reference.allows(home, left, shift).ok()?;
+    }
     let relations: Vec<Relation> = map.reference.relations(left).collect();
     let moved = relations.iter().map(|one| (one.to, shift + one.position));
     let allows = |(to, estimate)| map.reference.allows(home, to, estimate).is_ok();
-    if empties && !moved.clone().all(allows) {
+    if empties && !may_drop && !moved.clone().all(allows) {
         return None;
     }
     map.frame_mut(left).places.retain(|place| *place != lost);
     if empties {
         map.reference.clear(left);
         for (to, estimate) in moved.filter(|(to, _)| *to != home) {
-            // It was allowed just now.
-            let _ = map.reference.relate(home, to, estimate);
+            if map.reference.allows(home, to, estimate).is_ok() {
+                let _ = map.reference.relate(home, to, estimate);
+            }
         }
     } else if home != left {
         let _ = map.reference.relate(home, left, shift);

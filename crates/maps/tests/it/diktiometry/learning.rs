@@ -5,8 +5,8 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::Point;
 use tolman_maps::diktiometry::{
-    Config, DiktiometryConfigError, GeometricMerge, Identity, Link, Matcher, Percepts,
-    PerceptualIndexing, Use,
+    Apart, Config, DiktiometryConfigError, GeometricMerge, Identity, Link, Matcher, Percepts,
+    PerceptualIndexing, Use, WorldKind,
 };
 use tolman_maze::Direction;
 use tolman_sim::abstract_world::{AbstractWorld, MoveNoise};
@@ -367,6 +367,29 @@ fn moves_that_break_their_bounds_are_told_and_confuse_no_places() {
         assert!(score.link_recall > 0.95, "seed {seed}: {score:?}");
     }
     assert!(contradictions > 4, "{contradictions}");
+}
+
+#[test]
+fn outliers_on_known_ways_of_a_static_world_leave_every_place_once() {
+    let mut errors = ODOMETRY;
+    errors.outliers = 0.01;
+    // They end where the next place is, or where they began.
+    errors.outlier_factor = 10.0;
+    let mut config = alike();
+    config.actions = Config::corridor_actions();
+    config.world = WorldKind::Static;
+    config.apart = Apart::Side;
+    let scores = (0..20).map(|seed| {
+        let maze = blocks(6, 0.25, &mut ChaCha8Rng::seed_from_u64(seed));
+        let world = AbstractWorld::from_maze(&maze, 1.0);
+        let mut walk = Walk::new(world, errors, config.clone(), seed);
+        walk.heed(0.3, 2000);
+        walk.score()
+    });
+    let scores: Vec<Score> = scores.collect();
+    let right = scores.iter().filter(|score| **score == perfect(36)).count();
+    // Without the rules for static worlds none is right.
+    assert!(right >= 15, "{right} of 20: {scores:?}");
 }
 
 #[test]
