@@ -178,14 +178,12 @@ impl Observer {
         if self.config.world == WorldKind::Changing {
             return None;
         }
-        let gone = |from, action, to| {
-            let link = self.map.paths.between(from, action, to);
-            link.map_or(0, |link| self.map.link(link).traversed)
-        };
         let ways = self.map.paths.along(from, step.action);
         let (_, way) = ways.max_by_key(|(_, way)| way.traversed)?;
         let back = self.config.reverse(step.action);
-        let times = way.traversed + back.map_or(0, |back| gone(way.to, back, from));
+        let back = back.and_then(|back| self.map.paths.between(way.to, back, from));
+        let back = back.map_or(0, |back| self.map.link(back).traversed);
+        let times = way.traversed.saturating_add(back);
         let exits = [&self.map.place(way.to).exits, &step.exits];
         (times >= TRIED && self.config.may_be_same(exits)).then_some(way.to)
     }

@@ -32,8 +32,8 @@ pub(super) struct Branch {
     pub(super) narrowest: f64,
 }
 
-/// Maximum length of a spur that leads into a corner, in clearances where it begins. In 12 families
-/// of mazes, corners had at most 1.14 and dead ends of one square at least 1.2, mostly 1.9.
+/// Maximum length of a spur that leads into a corner, in clearances where it begins. In mazes of
+/// ten families corners had at most 1.23, and dead ends of one square mostly 1.41 to 2.
 const SPUR: f64 = 1.3;
 /// Maximum distance of knots that are one place, as a share of the sum of their clearances. Two
 /// junctions side by side are at least half of it apart.

@@ -81,18 +81,15 @@ pub(crate) fn choose(
     }
     let mut continues = first.iter().filter(|one| one.matcher == Matcher::Continue);
     // Odometry excludes the place where the action always led: odometry is wrong.
-    let is_led = !first.iter().any(Chosen::is_normal)
-        && first
-            .iter()
-            .any(|one| one.place().is_some() && one.place() == situation.led);
+    let is_there = |led| first.iter().any(|one| one.place() == Some(led));
+    let is_led = !first.iter().any(Chosen::is_normal) && situation.led.is_some_and(is_there);
     // Where the robot can be at no other place, others could only turn out to be the same.
-    let enough = if is_led {
-        true
-    } else if situation.precedes(Matcher::Continue, Matcher::Link, 0) {
-        continues.next().is_some()
-    } else {
-        continues.any(|one| one.is_certain)
-    };
+    let enough = is_led
+        || if situation.precedes(Matcher::Continue, Matcher::Link, 0) {
+            continues.next().is_some()
+        } else {
+            continues.any(|one| one.is_certain)
+        };
     let mut sets = Vec::from([first]);
     if !enough {
         for mut ply in plies() {
