@@ -22,7 +22,8 @@ pub struct SelfCheck {
     /// different from each other.
     #[cfg_attr(feature = "serde", serde(default))]
     pub repeated: usize,
-    /// Number of places from which an action of a static world leads to two places, or not back.
+    /// Number of places from which an action of a static world leads to two places, not back, or
+    /// straight to where it begins.
     pub torn: usize,
     /// Number of places that are apart from another and nearer to it than δ_sep
     /// ([`Config::separation`](super::Config::separation)), by all estimates of two or more.
@@ -97,7 +98,7 @@ impl SelfCheck {
                 "the map contradicts itself: {crowded} of its {places} places are nearer to another than the least distance of places that it was told; tell it a smaller `separation`, or wider bounds of its odometry"
             )),
             MapState::Contradictory => Some(format!(
-                "the map contradicts itself: from {torn} of its {places} places an action leads to two places, or not back"
+                "the map contradicts itself: from {torn} of its {places} places an action leads to two places, not back, or straight to where it begins"
             )),
         }
     }
@@ -193,6 +194,8 @@ impl Observer {
         near.map(|(other, _)| other).collect()
     }
 
+    /// Returns whether an action leads from a place to two places or not back, or a straight one
+    /// leads to where it begins.
     fn is_torn(&self, place: PlaceId) -> bool {
         let paths = &self.map.paths;
         self.config.world == WorldKind::Static
@@ -202,7 +205,10 @@ impl Observer {
                     let mut ways = paths.along(link.to, back).peekable();
                     ways.peek().is_some() && ways.all(|(_, way)| way.to != place)
                 };
-                paths.along(place, link.action).count() > 1 || back.is_some_and(leads_elsewhere)
+                let leads_nowhere = link.to == place && self.config.leads(link.action).is_some();
+                paths.along(place, link.action).count() > 1
+                    || leads_nowhere
+                    || back.is_some_and(leads_elsewhere)
             })
     }
 

@@ -5,7 +5,7 @@ use alloc::collections::BTreeSet;
 use proptest::prelude::*;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_geom::Point;
+use tolman_geom::{Interval, Point};
 use tolman_maps::diktiometry::{Action, Apart, Config, MapState, PlaceId, WorldKind};
 use tolman_sim::abstract_world::AbstractWorld;
 
@@ -74,6 +74,25 @@ fn places_nearer_than_was_told_contradict_the_map() {
     assert_eq!(check.state(), MapState::Contradictory, "{check:?}");
     let told = check.complaint().unwrap();
     assert!(told.contains("`separation`"), "{told}");
+}
+
+/// A straight way cannot lead to where it begins, even if odometry says so.
+#[test]
+fn a_straight_way_back_to_where_it_begins_contradicts_the_map() {
+    let ways = [1, 0].map(|other| [Some(other), None, Some(other), None]);
+    let ends = [0.0, 1.0].map(|y| Point::new(0.0, y));
+    let world = AbstractWorld::of_places(ends.into(), ways.into()).unwrap();
+    let mut walk = Walk::new(world, ODOMETRY, corridors(alike()), 1);
+    for _ in 0..20 {
+        let direction = walk.robot.wander().unwrap();
+        let moved = walk.robot.go(direction).unwrap();
+        let mut step = walk.told(&moved);
+        step.odometry.position.y = Interval::new(-0.1, 0.1).unwrap();
+        walk.observer.step(&step).unwrap();
+    }
+    let check = walk.observer.self_check();
+    assert_eq!((check.places, check.torn), (1, 1));
+    assert_eq!(check.state(), MapState::Contradictory);
 }
 
 proptest! {
