@@ -5,6 +5,9 @@
 //! from there on. Where the measured lengths leave no room for that, it is a rectangle, and each
 //! fifth corner is the first again.
 //!
+//! A corner may be a junction at which the robot turns. Then a spiral may meet a place again. It
+//! has closed off the ground that it turns to there, and winds inward.
+//!
 //! It holds if every place lies δ_sep or more beside the corridors that do not lead to it.
 
 use alloc::vec::Vec;
@@ -80,14 +83,14 @@ impl Turns {
         (is_used && is_turn && is_static).then_some(Self(all))
     }
 
-    /// Returns the turns from a corner with these exits, both ways round. None if it is no corner.
+    /// Returns all turns from a place with these exits, both ways round.
     pub(super) fn from(exits: &Exits, config: &Config) -> impl Iterator<Item = Self> {
-        let turns = match exits {
-            Exits::Seen(seen) => <[Action; 2]>::try_from(seen.as_slice()).ok(),
-            Exits::Unknown => None,
+        let ways = match exits {
+            Exits::Seen(seen) => seen.as_slice(),
+            Exits::Unknown => &[],
         };
-        let turns = turns.and_then(|ways| Self::new(ways, config));
-        turns.into_iter().flat_map(|turns| [turns, turns.back()])
+        let pairs = ways.iter().flat_map(|a| ways.iter().map(|b| [*a, *b]));
+        pairs.filter_map(|pair| Self::new(pair, config))
     }
 
     /// Returns the corner that is a round after another, or `None` if it is unknown.
@@ -116,14 +119,14 @@ impl Turns {
         self.0[corner % ROUND]
     }
 
-    /// Returns whether exits are those of a corner.
+    /// Returns whether a place with these exits can be a corner of the turns.
     pub(super) fn fit(&self, corner: usize, exits: &Exits) -> bool {
         let Exits::Seen(seen) = exits else {
             return false;
         };
         // What leads back to the corner before also leads on from the next one.
         let ways = [self.action(corner), self.action(corner + 1)];
-        seen.len() == ways.len() && ways.iter().all(|way| seen.contains(way))
+        ways.iter().all(|way| seen.contains(way))
     }
 
     /// Returns the corners to which the turns lead from one, at most `corridors` of them.
@@ -184,6 +187,7 @@ fn is_spiral(lengths: &[Interval], turn: usize, gap: f64) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use alloc::collections::BTreeSet;
     use alloc::vec;
 
     use proptest::prelude::*;
@@ -207,30 +211,43 @@ mod tests {
         corridors.collect()
     }
 
-    /// Returns whether corridors, and the corners at their ends, keep apart by 1 along an axis.
-    fn keep_apart(one: Corridor, other: Corridor) -> bool {
-        (0..2).any(|axis| {
-            let [low, high] = [i32::min, i32::max];
-            let side =
-                |[from, to]: Corridor| [low(from[axis], to[axis]), high(from[axis], to[axis])];
-            let ([a, b], [c, d]) = (side(one), side(other));
-            b < c || d < a
-        })
+    /// Returns whether two corridors may be in one world: they are the same, or they meet in a
+    /// place at the ends of both, or they keep apart by 1.
+    fn go_together(one: Corridor, other: Corridor) -> bool {
+        let sides = |corridor: Corridor| {
+            [0, 1].map(|axis| {
+                let [from, to] = corridor.map(|end| end[axis]);
+                [from.min(to), from.max(to)]
+            })
+        };
+        let [one_sides, other_sides] = [one, other].map(sides);
+        let shared = [0, 1].map(|axis| {
+            let ([a, b], [c, d]) = (one_sides[axis], other_sides[axis]);
+            [a.max(c), b.min(d)]
+        });
+        let keep_apart = shared.iter().any(|[low, high]| low > high);
+        let place = shared.map(|[low, _]| low);
+        let is_place = shared.iter().all(|[low, high]| low == high);
+        let meet = is_place && one.contains(&place) && other.contains(&place);
+        keep_apart || meet || one_sides == other_sides
     }
 
-    /// Returns whether left turns of these lengths lead past no corridor twice. Neighbours meet in
-    /// their corner.
+    /// Returns whether left turns of these lengths lead through corridors of one world, and never
+    /// to a place where they turned the same way before.
     fn is_way(lengths: &[i32]) -> bool {
         let corridors = drawn(lengths);
         (0..corridors.len()).all(|number| {
-            let mut later = corridors.iter().skip(number + 2);
-            later.all(|other| keep_apart(corridors[number], *other))
+            let mut later = corridors.iter().enumerate().skip(number + 1);
+            later.all(|(later, other)| {
+                let is_round = (later - number) % ROUND == 0 && corridors[number][0] == other[0];
+                !is_round && go_together(corridors[number], *other)
+            })
         })
     }
 
-    /// A corner has two exits: on to the next one, and back to the one before.
+    /// A corner has an exit on to the next one, and one back to the one before.
     #[test]
-    fn a_corner_has_the_exits_of_its_turn_and_no_others() {
+    fn a_corner_has_the_exits_of_its_turn() {
         let config = turning();
         let turns = Turns::new([Action(0), Action(1)], &config).unwrap();
         for corner in 0..8 {
@@ -238,7 +255,7 @@ mod tests {
             let seen = |exits: &[Action]| turns.fit(corner, &Exits::Seen(exits.to_vec()));
             assert!(seen(&ways) && seen(&[ways[1], ways[0]]), "{corner}");
             let other = Action((ways[1].0 + 1) % 4);
-            assert!(!seen(&ways[..1]) && !seen(&[ways[0], ways[1], other]));
+            assert!(!seen(&ways[..1]) && seen(&[ways[0], ways[1], other]));
             assert!(!seen(&[ways[0], other]) && !seen(&[other, ways[1]]) && !seen(&[]));
             assert!(!turns.fit(corner, &Exits::Unknown));
         }
@@ -261,8 +278,14 @@ mod tests {
             [[3, 0, 1, 2], [0, 3, 2, 1]].map(|all| Turns(all.map(Action)))
         );
         assert_eq!(Turns::from(&Exits::Unknown, &config).count(), 0);
-        let three = Exits::Seen([3, 0, 1].map(Action).to_vec());
-        assert_eq!(Turns::from(&three, &config).count(), 0);
+        let all = |exits: &[u32]| {
+            let exits = Exits::Seen(exits.iter().copied().map(Action).collect());
+            Turns::from(&exits, &config).count()
+        };
+        assert_eq!(
+            [all(&[0, 2]), all(&[3, 0, 1]), all(&[3, 0, 1, 2])],
+            [0, 4, 8]
+        );
         let mut changing = turning();
         changing.world = WorldKind::Changing;
         let mut unused = turning();
@@ -302,11 +325,35 @@ mod tests {
         #[test]
         fn no_spiral_is_a_rectangle(lengths in prop::collection::vec(1..9, 4..8), error in 0.0..0.3) {
             let config = config();
-            let whole = [&lengths[..], &[1]].concat();
-            let begun = [&[1], &lengths[..]].concat();
-            prop_assume!(is_way(&whole) && is_way(&begun));
+            let whole = [&[1], &lengths[..], &[1]].concat();
+            prop_assume!(is_way(&whole));
             prop_assert!(!is_rectangle(&about(&lengths, error), &config), "{:?}", lengths);
         }
+    }
+
+    /// All ways of up to nine corridors, also those that meet a place again.
+    #[test]
+    fn no_way_but_a_round_is_a_rectangle() {
+        let config = config();
+        let mut met = [0, 0];
+        let mut ways: Vec<Vec<i32>> = vec![vec![]];
+        while let Some(way) = ways.pop() {
+            for length in 1..=5 {
+                let longer = [&way[..], &[length]].concat();
+                if !is_way(&longer) {
+                    continue;
+                }
+                // At both ends a corridor leads on.
+                let known = &longer[1..longer.len().max(2) - 1];
+                assert!(!is_rectangle(&about(known, 0.0), &config), "{longer:?}");
+                let ends: BTreeSet<[i32; 2]> = drawn(&longer).iter().map(|way| way[1]).collect();
+                met[usize::from(ends.len() < longer.len())] += 1;
+                if longer.len() < 9 {
+                    ways.push(longer);
+                }
+            }
+        }
+        assert!(met.iter().all(|ways| *ways > 1000), "{met:?}");
     }
 
     fn config() -> Config {
