@@ -97,6 +97,19 @@ impl<'a> Clearings<'a> {
         gap.is_some()
     }
 
+    /// Returns whether the robot can have gone along a trail: from each point to the next it sees
+    /// the ground between, or it knows a way of at most `longest` m. O(points · cells seen, and
+    /// cells for each point that does not see the next).
+    #[must_use]
+    pub fn allow(&self, trail: &[Point], longest: f64) -> bool {
+        let is_short = |from: Point, to: Point| {
+            let metres = self.way_to(from, to).and_then(|way| way.metres(from));
+            metres.is_some_and(|metres| metres <= longest)
+        };
+        let mut steps = trail.windows(2);
+        steps.all(|ends| self.grid.sees(ends[0], ends[1]) || is_short(ends[0], ends[1]))
+    }
+
     /// Returns whether the robot can stand in each cell and come to it from any of the places, by
     /// slot of the grid. O(cells).
     pub(super) fn reached(&self, places: impl IntoIterator<Item = Point>) -> Vec<bool> {
@@ -235,6 +248,26 @@ mod tests {
         // Off the computed cells, the nearest of them counts if it is near.
         assert_eq!(way.metres(at(computed - BY)), way.metres(at(computed)));
         assert_eq!(way.metres(at(computed - BY - 1)), None);
+    }
+
+    #[test]
+    fn no_trail_leads_through_a_wall() {
+        // A wall of one cell between two corridors, which meet at the right end.
+        let wall = "#".repeat(42);
+        let (upper, end) = ("v".repeat(40), "v".repeat(20));
+        let between = alloc::format!("{}{end}#", "#".repeat(21));
+        let row = alloc::format!("#{upper}#");
+        let grid = drawn(&[&wall, &row, &row, &between, &row, &row, &wall]);
+        let clearings = Clearings::new(&grid, RADIUS);
+        let at = |column, row| middle([column, row]);
+        let round = [at(8, 1), at(30, 1), at(30, 5), at(8, 5)];
+        assert!(clearings.allow(&round, 0.5));
+        // From column 16 the way round is some ten cells, from column 2 some forty.
+        assert!(clearings.allow(&[at(16, 1), at(16, 5)], 1.0));
+        assert!(!clearings.allow(&[at(2, 1), at(2, 5)], 1.0));
+        assert!(clearings.allow(&[at(2, 1), at(2, 5)], 3.0));
+        assert!(!clearings.allow(&[at(8, 1), at(2, 1), at(2, 5), at(8, 5)], 1.0));
+        assert!(clearings.allow(&[at(2, 1)], 0.0) && clearings.allow(&[], 0.0));
     }
 
     #[test]

@@ -5,7 +5,7 @@ use tolman_geom::{Heading, Point, Vector};
 use tolman_robot::{Landmark, MapView, Scan};
 
 use super::chart::view;
-use super::fit::fit;
+use super::fit::{ScanFit, fit};
 use super::{Clearings, ScanChart, ScanMapConfig, WallGrid};
 
 /// A map of places, which are merged as it grows, with the links driven between them and the walls
@@ -46,6 +46,14 @@ const START_WITHIN: f64 = 2.0;
 
 /// Minimum distance between two stored points where a landmark was sensed, m.
 const SPACING_OF_LANDMARK: f64 = 0.02;
+
+/// Spacing of the positions that are searched where a scan contradicts the walls, m.
+const SEARCHED: f64 = 0.05;
+/// Standard deviation of a position at which a scan contradicts no walls, m: beams that miss by
+/// less contradict nothing.
+const ROUGHLY: f64 = 0.07;
+/// Maximum contradiction where a scan fits better, as a share of what it contradicts elsewhere.
+const MUCH_LESS: f64 = 0.5;
 
 /// A place of a [`ScanMap`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -107,14 +115,7 @@ impl ScanMap {
         };
         let expected = self.position + moved;
         let variance = self.variance + sd.component_mul(&sd);
-        let fitted = fit(
-            &self.grid,
-            expected,
-            variance,
-            self.config.farthest_fit,
-            seen.heading,
-            seen.scan,
-        );
+        let fitted = self.fitted(expected, variance, seen);
         self.position = fitted.at;
         self.agreement = fitted.agreement;
         // After a scan is drawn, errors before it belong to the map, not to the robot.
@@ -246,10 +247,50 @@ impl ScanMap {
         }
     }
 
+    /// Returns where a scan fits the walls. If it contradicts them there, odometry is worse than it
+    /// told, as where a long loop closes: then the scan fits near where it contradicts them much
+    /// less, if there is such a position. O(positions tried · beams).
+    fn fitted(&self, expected: Point, variance: Vector, seen: &Advance<'_>) -> ScanFit {
+        let farthest = self.config.farthest_fit;
+        let near = |at, variance| fit(&self.grid, at, variance, farthest, seen.heading, seen.scan);
+        let told = near(expected, variance);
+        let contradicted = self.contradicted(told.at, seen).unwrap_or(0.0);
+        if contradicted <= Self::DOUBTFUL {
+            return told;
+        }
+        match self.least_contradicted(expected, seen) {
+            Some((least, at)) if least < MUCH_LESS * contradicted => {
+                near(at, variance.sup(&Vector::repeat(ROUGHLY * ROUGHLY)))
+            }
+            _ => told,
+        }
+    }
+
+    /// Returns the share of the beams of a scan that contradict the walls where fewest do, and the
+    /// nearest such position about the expected one. O(positions · beams · range).
+    fn least_contradicted(&self, expected: Point, seen: &Advance<'_>) -> Option<(f64, Point)> {
+        let steps = (self.config.farthest_fit / SEARCHED) as i32;
+        let along = move || (-steps..=steps).map(|step| f64::from(step) * SEARCHED);
+        let shifts = along().flat_map(|x| along().map(move |y| Vector::new(x, y)));
+        let tried = shifts.filter_map(|shift| {
+            let contradicted = self.contradicted(expected + shift, seen)?;
+            Some((contradicted, shift.norm(), expected + shift))
+        });
+        let nearer = |a: &(f64, f64, Point), b: &(f64, f64, Point)| {
+            a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1))
+        };
+        let (contradicted, _, at) = tried.min_by(nearer)?;
+        Some((contradicted, at))
+    }
+
+    /// Returns the share of the beams of a scan that contradict the known walls.
+    fn contradicted(&self, at: Point, seen: &Advance<'_>) -> Option<f64> {
+        self.grid.contradiction(at, seen.heading, seen.scan, FEWEST)
+    }
+
     /// Compares a scan with the known walls, and records how much of it contradicts them.
     fn weigh(&mut self, seen: &Advance<'_>) {
-        let scan = (self.position, seen.heading, seen.scan);
-        if let Some(now) = self.grid.contradiction(scan.0, scan.1, scan.2, FEWEST) {
+        if let Some(now) = self.contradicted(self.position, seen) {
             self.surprise = self.surprise.max(now.min(self.contradiction));
             self.contradiction = now;
         }

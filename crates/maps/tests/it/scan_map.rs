@@ -92,6 +92,26 @@ fn a_corridor_walked_to_and_fro_has_each_place_once() {
     assert!(view.links.iter().all(|link| link.from != link.to));
 }
 
+/// Where the walls contradict the odometry, they decide, however sure the odometry is.
+#[test]
+fn walls_correct_odometry_that_is_worse_than_it_told() {
+    for error in [-0.3, -0.25, 0.25, 0.3] {
+        let mut map = ScanMap::new(ScanMapConfig::for_robot(DIAMETER));
+        for (x, moved) in [(0.5, 0.0), (1.1, 0.6), (0.5, -0.6 + error)] {
+            map.observe(&Advance {
+                moved: Vector::new(moved, 0.0),
+                sd: Vector::new(0.02, 0.02),
+                heading: Heading::EAST,
+                scan: &scan_of(1.6, Point::new(x, 0.475), Heading::EAST),
+                landmark: None,
+            });
+        }
+        let off = (map.position() - Point::origin()).norm();
+        assert!(off < 0.1, "off by {error} m, it is {off} m off");
+        assert!(map.surprise() < ScanMap::DOUBTFUL);
+    }
+}
+
 #[test]
 fn a_robot_that_saw_one_end_knows_which_end_it_is_at() {
     let (map, _) = walked(5.0, &[0.0]);

@@ -71,6 +71,8 @@ const MOST_DROPPED: u32 = 3;
 const MOST_HOMEWARD: [f64; 2] = [3.0, 20.0];
 /// Number of times that an action is chosen at a place before the robot acts at random there.
 const ROUNDS: usize = 4;
+/// Maximum way of an action, in usual ways of an action: round corners it is longer than usual.
+const LONGEST: f64 = 2.5;
 /// Cost of a quarter turn, as a distance, m.
 const TURN: f64 = 0.35;
 
@@ -120,6 +122,9 @@ impl BetterExplorer {
             Plan::Finished if self.knew_start && !self.knows_start() => {
                 Some("the start is not on it, though it began there: try another --seed")
             }
+            Plan::Finished if self.drove_through_a_wall() => {
+                Some("the robot drove where the map has a wall: try another --seed")
+            }
             Plan::Finished => self.map.chart().doubt(),
             Plan::Return(_) | Plan::Strayed => {
                 Some("it did not come back to where its map begins: try another --seed")
@@ -128,6 +133,11 @@ impl BetterExplorer {
                 Some("a gap is left that it did not come to: try another --seed")
             }
         }
+    }
+
+    fn drove_through_a_wall(&self) -> bool {
+        let longest = LONGEST * self.config.action_way;
+        !self.map.clearings().allow(&self.trail, longest)
     }
 
     fn knows_start(&self) -> bool {
