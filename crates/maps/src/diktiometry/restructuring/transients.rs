@@ -37,7 +37,9 @@ pub(super) fn elide(
         let there = map.place(end);
         let unheard = there.incoming.is_empty()
             && (is_outvoted || is_transient(&there.counts, &config.transients));
-        if there.fate == Fate::Standing && unheard && !occupied.contains(&end) {
+        // A place with a track may have merged since.
+        let is_end = |track: &PlaceId| map.paths.resolve(*track) == Some(end);
+        if there.fate == Fate::Standing && unheard && !occupied.iter().any(is_end) {
             elide_place(map, end);
             done.push(Restructured::PlaceElided(end));
         }
