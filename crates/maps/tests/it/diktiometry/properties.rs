@@ -120,6 +120,31 @@ pub(super) fn observer_and_moves(
     (Observer::new(config.clone(), start).unwrap(), moves)
 }
 
+/// A place where a track stands is not elided, also if it got its name by a merge in the same move.
+#[test]
+fn the_place_of_a_track_stays_when_it_merges() {
+    let about = |x, y, margin| PointBox::about(Point::new(x, y), margin).unwrap();
+    let moves = [
+        (3, about(1.0, -1e-300, 0.0), Exits::Unknown),
+        (0, about(-1.0, 0.0, 0.1), Exits::Seen(Vec::new())),
+        (3, about(1.17, 0.0, 0.84), Exits::Unknown),
+    ];
+    let moves = moves.map(|(action, moved, exits)| ObservedMove {
+        action: Action(action),
+        odometry: PoseBox::new(moved, Interval::ZERO),
+        percept: Some(Signature::new(1, vec![0.0; 4]).unwrap()),
+        exits,
+        outcome: MoveOutcome::Arrived,
+    });
+    let (mut observer, moves) = observer_and_moves(&config(1_856_336_660), moves.into());
+    for step in moves {
+        observer.step(&step).unwrap();
+        for track in observer.tracks() {
+            assert_eq!(observer.map().paths.resolve(track.place), Some(track.place));
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(96))]
 
