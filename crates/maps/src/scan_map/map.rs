@@ -115,12 +115,12 @@ impl ScanMap {
         };
         let expected = self.position + moved;
         let variance = self.variance + sd.component_mul(&sd);
-        let fitted = self.fitted(expected, variance, seen);
+        let (fitted, contradicted) = self.fitted(expected, variance, seen);
         self.position = fitted.at;
         self.agreement = fitted.agreement;
         // After a scan is drawn, errors before it belong to the map, not to the robot.
         self.variance = fitted.variance;
-        self.weigh(seen);
+        self.weigh(contradicted);
         self.draw(seen);
         self.enter(seen.landmark);
         if let Some(landmark) = seen.landmark {
@@ -247,20 +247,27 @@ impl ScanMap {
         }
     }
 
-    /// Returns where a scan fits the walls. If it contradicts them there, odometry is worse than it
-    /// told, as where a long loop closes: then the scan fits near where it contradicts them much
-    /// less, if there is such a position. O(positions tried · beams).
-    fn fitted(&self, expected: Point, variance: Vector, seen: &Advance<'_>) -> ScanFit {
+    /// Returns where a scan fits the walls, and the share of its beams that contradict them there,
+    /// if enough can. If many do, odometry is worse than it told, as where a long loop closes: then
+    /// the scan fits near where far fewer do, if there is such a position. O(positions tried ·
+    /// beams).
+    fn fitted(
+        &self,
+        expected: Point,
+        variance: Vector,
+        seen: &Advance<'_>,
+    ) -> (ScanFit, Option<f64>) {
         let farthest = self.config.farthest_fit;
         let near = |at, variance| fit(&self.grid, at, variance, farthest, seen.heading, seen.scan);
         let told = near(expected, variance);
-        let contradicted = self.contradicted(told.at, seen).unwrap_or(0.0);
-        if contradicted <= Self::DOUBTFUL {
+        let told = (told, self.contradicted(told.at, seen));
+        let Some(contradicted) = told.1.filter(|share| *share > Self::DOUBTFUL) else {
             return told;
-        }
+        };
         match self.least_contradicted(expected, seen) {
             Some((least, at)) if least < MUCH_LESS * contradicted => {
-                near(at, variance.sup(&Vector::repeat(ROUGHLY * ROUGHLY)))
+                let fitted = near(at, variance.sup(&Vector::repeat(ROUGHLY * ROUGHLY)));
+                (fitted, self.contradicted(fitted.at, seen))
             }
             _ => told,
         }
@@ -288,9 +295,9 @@ impl ScanMap {
         self.grid.contradiction(at, seen.heading, seen.scan, FEWEST)
     }
 
-    /// Compares a scan with the known walls, and records how much of it contradicts them.
-    fn weigh(&mut self, seen: &Advance<'_>) {
-        if let Some(now) = self.contradicted(self.position, seen) {
+    /// Records how much of a scan contradicts the known walls.
+    fn weigh(&mut self, contradicted: Option<f64>) {
+        if let Some(now) = contradicted {
             self.surprise = self.surprise.max(now.min(self.contradiction));
             self.contradiction = now;
         }

@@ -1,5 +1,8 @@
 use std::fs;
 
+use tolman_maze::Direction::{East, North, South, West};
+use tolman_maze::{Cell, Direction, Grid, Maze};
+
 use crate::{folder, tolman_in};
 
 /// A loop with two dead ends; the goal is one of them.
@@ -112,34 +115,18 @@ fn a_plan_to_where_no_way_is_known_is_a_failure() {
     tolman_in(&folder, &back).refused(1, &told);
 }
 
-/// Returns the maze of a corridor round these corners, in cells from the lower left one.
-fn drawn_round(corners: [[i32; 2]; 6]) -> String {
-    let mut lines = vec![Vec::new(); 43];
-    for (row, line) in lines.iter_mut().enumerate() {
-        let part = if row % 2 == 0 { "o---" } else { "|   " };
-        *line = format!("{}{}", part.repeat(21), &part[..1]).into_bytes();
-    }
-    // Two cells between whose middles lies a wall's middle.
-    let mut open = |[x, y]: [i32; 2], [dx, dy]: [i32; 2]| {
-        let (row, column) = ((41 - 2 * y - dy) as usize, (4 * x + 2 * dx + 2) as usize);
-        lines[row][column - 1 + dx as usize..column + 2 - dx as usize].fill(b' ');
-    };
-    for (from, to) in corners.into_iter().zip(corners.into_iter().cycle().skip(1)) {
-        let [low, high] = if from < to { [from, to] } else { [to, from] };
-        let axis = usize::from(low[0] == high[0]);
-        for along in low[axis]..high[axis] {
-            let (mut cell, mut way) = (low, [0, 0]);
-            (cell[axis], way[axis]) = (along, 1);
-            open(cell, way);
+/// Returns a maze of one corridor from the lower left cell: its ways, and how many cells each leads.
+fn corridor(legs: &[(Direction, usize)]) -> Maze {
+    let mut maze = Maze::solid(Grid::new(21, 21));
+    let mut at = Cell::new(0, 0);
+    maze.set_start(Some((at, Direction::North)));
+    for (direction, cells) in legs {
+        for _ in 0..*cells {
+            maze.set_wall(at, *direction, false);
+            at = maze.beside(at, *direction).unwrap();
         }
     }
-    lines[41][2] = b'S';
-    lines[21][42] = b'G';
-    let drawing: Vec<String> = lines
-        .into_iter()
-        .map(|line| String::from_utf8(line).unwrap())
-        .collect();
-    format!("format = tolman maze 1\n\n{}\n", drawing.join("\n"))
+    maze
 }
 
 #[test]
@@ -147,8 +134,17 @@ fn a_map_that_grows_without_end_is_given_up() {
     let folder = folder("endless");
     let carry_out = |line: &str| tolman_in(&folder, &line.split(' ').collect::<Vec<_>>());
     // It turns both ways, so that its turns alone do not prove it to be one loop.
-    let bent = drawn_round([[0, 0], [20, 0], [20, 10], [10, 10], [10, 20], [0, 20]]);
-    fs::write(folder.join("bent.maze"), bent).unwrap();
+    let legs = [
+        (East, 20),
+        (North, 10),
+        (West, 10),
+        (North, 10),
+        (West, 10),
+        (South, 20),
+    ];
+    let mut bent = corridor(&legs);
+    bent.set_goals(vec![Cell::new(10, 10)]);
+    fs::write(folder.join("bent.maze"), bent.to_string()).unwrap();
     let learn = "learn --system diktiometry --maze bent.maze --set moves=5000 --out bent.json";
     let told = [
         "the map grows without end: only 6 of its",
