@@ -115,7 +115,7 @@ fn a_plan_to_where_no_way_is_known_is_a_failure() {
     tolman_in(&folder, &back).refused(1, &told);
 }
 
-/// Returns a maze of one corridor from the lower left cell: its ways, and how many cells each leads.
+/// Returns a maze of one corridor from the lower left cell: its ways, and the cells each leads.
 fn corridor(legs: &[(Direction, usize)]) -> Maze {
     let mut maze = Maze::solid(Grid::new(21, 21));
     let mut at = Cell::new(0, 0);
