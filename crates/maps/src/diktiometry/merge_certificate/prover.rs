@@ -112,24 +112,35 @@ impl Prover<'_> {
         report: &StepReport,
     ) -> Vec<Vec<[usize; 2]>> {
         let here = observer.place();
-        let merges = report
-            .restructured
-            .iter()
-            .filter_map(|change| match *change {
-                Restructured::Merged { kept, merged, .. } => Some([kept, merged]),
-                _ => None,
-            });
-        let merges: Vec<[PlaceId; 2]> = merges.collect();
+        let mut arrived = BTreeSet::from([here]);
+        let mut merges = Vec::new();
+        for change in &report.restructured {
+            match *change {
+                Restructured::Merged { kept, merged, .. } => {
+                    arrived.extend([kept, merged]);
+                    merges.push([kept, merged]);
+                }
+                // What leaves a place has been visited as that place.
+                Restructured::Split { kept, new, .. } => {
+                    if let Some(visit) = self.visits.get(&kept) {
+                        self.visits.insert(new, *visit);
+                    }
+                }
+                _ => {}
+            }
+        }
         // A place that was not visited before is the one that the move made.
-        let mut arrived: BTreeSet<PlaceId> = merges.iter().flatten().copied().collect();
-        arrived.insert(here);
         let is_new = arrived.iter().any(|place| !self.visits.contains_key(place));
         for place in &arrived {
             self.visits.entry(*place).or_insert(visit);
         }
         let pair = |[kept, merged]: [PlaceId; 2]| [self.visits[&kept], self.visits[&merged]];
-        let mut claims: Vec<Vec<[usize; 2]>> =
-            merges.iter().map(|ends| Vec::from([pair(*ends)])).collect();
+        let pairs = merges.into_iter().map(pair);
+        // A place that left another and comes back claims nothing.
+        let mut claims: Vec<Vec<[usize; 2]>> = pairs
+            .filter(|[one, other]| one != other)
+            .map(|pair| Vec::from([pair]))
+            .collect();
         let at = arrived
             .iter()
             .filter(|place| observer.map().paths.resolve(**place) == Some(here));

@@ -77,8 +77,9 @@ fn wound(drawing: &Maze, seed: u64) -> (Walk, CertifiedMerges) {
 #[test]
 fn a_ring_is_proven_by_its_turns() {
     let mut proven = 0;
-    for seed in 0..16 {
-        let size = 6 + seed as u16;
+    // In 46 a corner merges, leaves again and merges again.
+    for seed in 0..48 {
+        let size = 6 + seed as u16 % 24;
         let ring = ring((size, size), &mut ChaCha8Rng::seed_from_u64(seed)).unwrap();
         let (walk, told) = wound(&ring, seed);
         assert_eq!(walk.observer.map().paths.places().count(), 4, "seed {seed}");
@@ -90,7 +91,7 @@ fn a_ring_is_proven_by_its_turns() {
             proven += usize::from(by_turns && !certificate.rests_on_looks);
         }
     }
-    assert!(proven >= 8, "{proven}");
+    assert!(proven >= 24, "{proven}");
 }
 
 #[test]
