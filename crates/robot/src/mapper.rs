@@ -37,8 +37,9 @@ pub trait Mapper {
     }
 
     /// Returns the places that it visited, in order, in the light of all later observations. A
-    /// place that is not on its map is `None`. Empty if its places keep their names, so that its
-    /// beliefs of old still hold. O(visits · log map).
+    /// place that is not on its map is `None`. A mapper may name one for each of its observations.
+    /// Empty if its places keep their names, so that its beliefs of old still hold. O(visits · log
+    /// map).
     fn visits(&self) -> Vec<Option<u32>> {
         Vec::new()
     }

@@ -3,7 +3,7 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use super::{Condition, Contest, ContestRobot, Contestant, Schooling};
+use super::{Condition, Contest, ContestRobot, Contestant, Moment, Schooling};
 use crate::family::Family;
 
 const SEEDS: u64 = 5;
@@ -47,4 +47,36 @@ fn every_system_can_be_sent_into_every_family_or_says_in_a_sentence_why_not() {
         }
     }
     assert!(sent > 1000 && abstained > 50, "{sent} {abstained}");
+}
+
+/// The arena relies on it to know where the robot truly was.
+#[test]
+fn better_mslst_names_a_place_for_each_time_step() {
+    for condition in [
+        Condition::AsMade,
+        Condition::Kidnapping,
+        Condition::DropOuts,
+    ] {
+        let family = Family::ARENA[0];
+        let maze = (family.draw)(family.sizes[0], &mut ChaCha8Rng::seed_from_u64(1)).unwrap();
+        let contest = Contest {
+            contestant: Contestant::MslstBetter,
+            robot: ContestRobot::Own,
+            maze: &maze,
+            name: family.name,
+            condition,
+            starts: 0,
+            seed: 1,
+            stopwatch: None,
+        };
+        let mut actions = 0;
+        let played = contest.play(&Schooling::default(), |outing, moment| {
+            if moment == Moment::Acted {
+                assert_eq!(outing.visit_count(), outing.path().len());
+                assert_eq!(outing.visits().len(), outing.path().len());
+                actions += 1;
+            }
+        });
+        assert!(played.is_ok() && actions > 30, "{condition:?} {actions}");
+    }
 }

@@ -525,15 +525,25 @@ pub(super) struct Driven {
 pub(super) struct TrueVisits {
     /// The cell in which the robot came to each place of its map.
     arrivals: Vec<Cell>,
+    /// Number of time steps so far.
+    steps: usize,
     /// Place that the system believed in after each action.
     beliefs: Vec<PlaceVisit>,
 }
 
 impl TrueVisits {
-    /// Records the result of an action, before which the robot was at `before`.
+    /// Records the result of an action, before which the robot was at `before`. A system may name a
+    /// place for each time step.
     pub(super) fn note(&mut self, outing: &dyn Outing, before: Point, squares: Squares) {
         let after = outing.path().last().map_or(before, |pose| pose.position);
         let visits = outing.visit_count();
+        let made = outing.path().get(self.steps..).unwrap_or(&[]);
+        self.steps += made.len();
+        if !made.is_empty() && self.arrivals.len() + made.len() == visits {
+            let cells = made.iter().map(|pose| squares.cell_at(pose.position));
+            self.arrivals.extend(cells);
+            return;
+        }
         while self.arrivals.len() + 1 < visits {
             self.arrivals.push(squares.cell_at(before));
         }
