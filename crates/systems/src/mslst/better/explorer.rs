@@ -33,11 +33,13 @@ pub struct BetterExplorer {
     plan: Plan,
     /// Believed position of the robot after each action, m.
     trail: Vec<Point>,
+    /// Believed position of the robot after each time step, m.
+    passed: Vec<Point>,
     /// Readings when the last action ended, until the robot sets off.
     stop: Option<Stop>,
     /// Number of dropped maps because the robot was lifted.
     dropped: u32,
-    /// Number of actions on dropped maps.
+    /// Number of time steps without a position on this map.
     forgotten: usize,
     /// Whether a dropped map had the start.
     knew_start: bool,
@@ -94,6 +96,7 @@ impl BetterExplorer {
             last: None,
             plan: Plan::Stuck,
             trail: Vec::new(),
+            passed: Vec::new(),
             stop: None,
             dropped: 0,
             forgotten: 0,
@@ -333,6 +336,13 @@ impl Mapper for BetterExplorer {
                 self.arrived(seen, scan.as_ref());
             }
         }
+        match self.map.at() {
+            Some(_) => {
+                let here = self.map.position() + self.reckoning.since();
+                self.passed.push(here);
+            }
+            None => self.forgotten += 1,
+        }
         Ok(())
     }
 
@@ -350,7 +360,7 @@ impl Mapper for BetterExplorer {
 
     fn visits(&self) -> Vec<Option<u32>> {
         let mut visits = vec![None; self.forgotten];
-        visits.extend(self.corridors().visits(&self.trail));
+        visits.extend(self.corridors().visits(&self.passed));
         visits
     }
 
@@ -361,7 +371,7 @@ impl Mapper for BetterExplorer {
     }
 
     fn visit_count(&self) -> usize {
-        self.forgotten + self.trail.len()
+        self.forgotten + self.passed.len()
     }
 
     fn map_bytes(&self) -> Option<usize> {
