@@ -7,7 +7,9 @@ mod tests;
 
 use alloc::sync::Arc;
 use core::f64::consts::PI;
+use core::hash::Hasher;
 
+use fnv::FnvHasher;
 use rand::{Rng, RngExt};
 use thiserror::Error;
 use tolman_control::heading_of;
@@ -257,11 +259,9 @@ impl Course {
             Some(free) => free.text.to_string(),
             None => format!("{}{}", self.maze, self.corridor_width),
         };
-        // FNV-1a, 64 bits.
-        let hash = text.bytes().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
-            (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
-        });
-        format!("{hash:016x}")
+        let mut hash = FnvHasher::default();
+        hash.write(text.as_bytes());
+        format!("{:016x}", hash.finish())
     }
 
     /// Returns the default number of time steps after which a run has failed. It is proportional to

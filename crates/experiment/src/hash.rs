@@ -1,11 +1,15 @@
 //! The 64-bit FNV-1a hash, which is the same on every platform and in every release of Rust.
 
+use core::hash::Hasher;
+
+use fnv::FnvHasher;
+
 /// Returns the FNV-1a hash (Fowler, Noll and Vo) of some bytes. It detects accidental differences,
 /// and does not protect against manipulation.
 pub(super) fn fnv64(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
-        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
-    })
+    let mut hash = FnvHasher::default();
+    hash.write(bytes);
+    hash.finish()
 }
 
 #[cfg(test)]

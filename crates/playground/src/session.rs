@@ -1,3 +1,6 @@
+use core::hash::Hasher;
+
+use fnv::FnvHasher;
 use serde::Serialize;
 use tolman_arena::Outing;
 use tolman_arena::contest::{Contestant, SteppedContest, TaskRecord};
@@ -154,15 +157,15 @@ impl Session {
     #[must_use]
     pub fn fingerprint(&self) -> String {
         let outing = self.contest.outing();
-        let mut hash = Fnv::default();
+        let mut hash = FnvHasher::default();
         for pose in outing.path() {
             for number in [pose.position.x, pose.position.y, pose.heading.radians()] {
-                hash.take(&number.to_bits().to_le_bytes());
+                hash.write(&number.to_bits().to_le_bytes());
             }
         }
-        hash.take(format!("{:?}", outing.map()).as_bytes());
-        hash.take(format!("{:?}", outing.belief()).as_bytes());
-        format!("{:016x}", hash.0)
+        hash.write(format!("{:?}", outing.map()).as_bytes());
+        hash.write(format!("{:?}", outing.belief()).as_bytes());
+        format!("{:016x}", hash.finish())
     }
 
     fn steps(&self) -> usize {
@@ -199,22 +202,5 @@ pub(crate) fn count(number: usize, thing: &str) -> String {
     match number {
         1 => format!("1 {thing}"),
         _ => format!("{number} {thing}s"),
-    }
-}
-
-/// Hash of the type FNV-1a, 64 bits.
-struct Fnv(u64);
-
-impl Default for Fnv {
-    fn default() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-}
-
-impl Fnv {
-    fn take(&mut self, bytes: &[u8]) {
-        for byte in bytes {
-            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-        }
     }
 }

@@ -7,12 +7,14 @@
 // Input holds any bytes: a reader indexes nothing.
 #![cfg_attr(not(test), warn(clippy::indexing_slicing))]
 
+use core::hash::Hasher;
 use core::time::Duration;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::{Context, Error, anyhow};
+use fnv::FnvHasher;
 use serde::{Deserialize, Serialize};
 use tolman_arena::BoxError;
 use tolman_formats::input;
@@ -405,7 +407,7 @@ struct Trail {
 impl Default for Trail {
     fn default() -> Self {
         Self {
-            hash: 0xcbf2_9ce4_8422_2325,
+            hash: FnvHasher::default().finish(),
             poses: 0,
             bumps: 0,
         }
@@ -428,8 +430,8 @@ impl Trail {
     }
 
     fn hash(&mut self, bytes: &[u8]) {
-        self.hash = bytes.iter().fold(self.hash, |hash, byte| {
-            (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)
-        });
+        let mut hash = FnvHasher::with_key(self.hash);
+        hash.write(bytes);
+        self.hash = hash.finish();
     }
 }

@@ -1,17 +1,18 @@
 use alloc::vec::Vec;
+use core::hash::Hasher;
+
+use fnv::FnvHasher;
 
 use super::{JournalSpan, LookEvidence, MergeCertificate, MergeProof, WindingEvidence};
 use crate::diktiometry::Action;
 
 /// A checksum of numbers: FNV-1a, 64 bits (Fowler, Noll and Vo). It detects accidental changes, and
 /// does not protect against manipulation.
-struct Seal(u64);
+struct Seal(FnvHasher);
 
 impl Seal {
     fn take(&mut self, number: u64) {
-        for byte in number.to_le_bytes() {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-        }
+        self.0.write(&number.to_le_bytes());
     }
 
     fn take_all(&mut self, numbers: impl IntoIterator<Item = usize>) {
@@ -47,7 +48,7 @@ impl MergeCertificate {
 
     /// Returns the seal that matches the certificate's contents.
     pub(super) fn checksum(&self) -> u64 {
-        let mut seal = Seal(0xcbf2_9ce4_8422_2325);
+        let mut seal = Seal(FnvHasher::default());
         seal.take_all(self.visits);
         seal.take_all([usize::from(self.rests_on_looks)]);
         match &self.proof {
@@ -64,7 +65,7 @@ impl MergeCertificate {
                 evidence.sum_up(&mut seal);
             }
         }
-        seal.0
+        seal.0.finish()
     }
 }
 
