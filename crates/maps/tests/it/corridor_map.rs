@@ -173,6 +173,16 @@ fn a_robot_is_at_a_place_within_a_third_of_a_corridor() {
 }
 
 #[test]
+fn the_nearest_point_of_a_trail_tells_which_place_it_passed() {
+    let map = map(&["######", "#.S.G#", "######"]);
+    let start = map.places()[1].position;
+    let trail = [-0.5, -0.25, 0.3, 0.55].map(|share| Point::new(start.x + share * WIDTH, start.y));
+    assert_eq!(map.visits(&trail), [None, Some(1), None, None]);
+    let nearer = [-0.3, -0.15, 0.19].map(|share| Point::new(start.x + share * WIDTH, start.y));
+    assert_eq!(map.visits(&nearer), [None, Some(1), Some(1)]);
+}
+
+#[test]
 fn goals_as_wide_as_several_corridors_are_several_places() {
     let drawing = ["######", "#S...#", "###.##", "###G##", "######"];
     let at = middle(&drawing, 'G').unwrap();

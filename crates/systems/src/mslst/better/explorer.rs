@@ -128,6 +128,9 @@ impl BetterExplorer {
             Plan::Finished if self.drove_through_a_wall() => {
                 Some("the robot drove where the map has a wall: try another --seed")
             }
+            Plan::Finished if self.corridors().is_torn() => Some(
+                "two of its places are nearer than half a corridor's width: try another --seed",
+            ),
             Plan::Finished => self.map.chart().doubt(),
             Plan::Return(_) | Plan::Strayed => {
                 Some("it did not come back to where its map begins: try another --seed")
