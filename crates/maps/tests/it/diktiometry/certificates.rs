@@ -7,20 +7,27 @@ use tolman_maps::diktiometry::{
     Action, Apart, CertifiedMerges, Config, JournalLength, JournalSpan, MergeCertificate,
     MergeCertificateError, MergeProof, Use, WorldKind, certify_merges, verify_merges,
 };
-use tolman_maze::Maze;
-use tolman_maze::drawings::{ring, spiral};
-use tolman_sim::abstract_world::AbstractWorld;
+use tolman_maze::drawings::{ladder_of, ring, spiral};
+use tolman_maze::{Braided, Maze};
+use tolman_sim::abstract_world::{AbstractWorld, MoveNoise};
 
-use super::walk::{ODOMETRY, Walk, alike, blocks, painted};
+use super::walk::{ODOMETRY, Walk, alike, blocks, open, painted};
 
 /// Returns a walk through blocks where nothing changes, and what is proven of its map.
 pub(super) fn walked(config: Config, seed: u64) -> (Walk, CertifiedMerges) {
     let maze = blocks(5, 0.25, &mut ChaCha8Rng::seed_from_u64(seed));
-    certified(AbstractWorld::from_maze(&maze, 1.0), 300, config, seed)
+    certified(
+        AbstractWorld::from_maze(&maze, 1.0),
+        ODOMETRY,
+        300,
+        config,
+        seed,
+    )
 }
 
 fn certified(
     world: AbstractWorld,
+    errors: MoveNoise,
     moves: usize,
     mut config: Config,
     seed: u64,
@@ -28,7 +35,7 @@ fn certified(
     config.journal = JournalLength::All;
     config.world = WorldKind::Static;
     config.apart = Apart::Side;
-    let mut walk = Walk::new(world, ODOMETRY, config, seed);
+    let mut walk = Walk::new(world, errors, config, seed);
     walk.heed(0.3, moves);
     let journal = walk.observer.journal().unwrap();
     let told = certify_merges(walk.observer.config(), journal).unwrap();
@@ -71,7 +78,7 @@ fn wound(drawing: &Maze, seed: u64) -> (Walk, CertifiedMerges) {
     let mut config = corridors();
     config.restructuring.winding_merge = Use::On;
     let world = AbstractWorld::from_corridors(drawing, 1.0);
-    certified(world, 200, config, seed)
+    certified(world, ODOMETRY, 200, config, seed)
 }
 
 #[test]
@@ -92,6 +99,80 @@ fn a_ring_is_proven_by_its_turns() {
         }
     }
     assert!(proven >= 24, "{proven}");
+}
+
+fn braided(rng: &mut ChaCha8Rng) -> Maze {
+    let shape = Braided {
+        width: 8,
+        height: 8,
+        share: 0.6,
+    };
+    shape.generate(rng).unwrap()
+}
+
+/// Returns a walk through long painted corridors, or through rooms that are furnished alike.
+fn looked(seed: u64) -> (Walk, CertifiedMerges) {
+    let mut config = painted();
+    config.actions = Config::corridor_actions();
+    config.restructuring.look_merge = Use::On;
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let world = match seed % 4 {
+        0 => AbstractWorld::from_corridors(&blocks(7, 0.25, &mut rng), 1.0).painted(5, seed),
+        1 => AbstractWorld::from_corridors(&ladder_of(11, &mut rng).unwrap(), 1.0).painted(8, seed),
+        2 => AbstractWorld::from_corridors(&braided(&mut rng), 1.0).painted(4, seed),
+        _ => {
+            let room = |place: u32| (place / 9 % 3) * 9 + place % 9 % 3;
+            open(9).painted(8, seed).looking_like(room)
+        }
+    };
+    let mut errors = ODOMETRY;
+    errors.distance = 0.4;
+    errors.look = 0.15;
+    certified(world, errors, 600, config, seed)
+}
+
+/// Returns the number of merges by looks in worlds of these seeds, the number of false ones, and
+/// the number of false ones to expect from their stated chances. No other merge may be false.
+fn looks_of(seeds: core::ops::Range<u64>) -> (usize, usize, f64) {
+    let (mut all, mut wrong, mut expected) = (0, 0, 0.0);
+    let mut by_bounds = 0;
+    for seed in seeds {
+        let (walk, told) = looked(seed);
+        assert_eq!(verified(&walk, &told.certificates), Ok(()), "seed {seed}");
+        for certificate in &told.certificates {
+            let [one, other] = certificate.visits.map(|visit| walk.log[visit].0);
+            if let MergeProof::Looks(evidence) = &certificate.proof {
+                all += 1;
+                wrong += usize::from(one != other);
+                expected += evidence.chance;
+            } else if !certificate.rests_on_looks {
+                by_bounds += 1;
+                assert_eq!(one, other, "seed {seed}: {certificate:?}");
+            }
+        }
+    }
+    println!("{by_bounds} merges by bounds; {wrong} of {all} by looks false, expected {expected}");
+    (all, wrong, expected)
+}
+
+#[test]
+fn looks_err_as_seldom_as_they_state() {
+    let (all, wrong, expected) = looks_of(0..24);
+    assert!(
+        all > 30 && wrong == 0,
+        "{wrong} of {all}, expected {expected}"
+    );
+}
+
+#[test]
+#[ignore = "takes minutes: cargo test -p tolman-maps --test it -- --ignored looks_err"]
+fn looks_err_as_seldom_as_they_state_ten_thousand_times() {
+    let (all, wrong, expected) = looks_of(100..4300);
+    assert!(all >= 10_000, "{all}");
+    assert!(
+        wrong as f64 <= 3.0 * expected,
+        "{wrong} of {all}, expected {expected}"
+    );
 }
 
 #[test]
