@@ -166,7 +166,7 @@ fn looks_err_as_seldom_as_they_state() {
 }
 
 #[test]
-#[ignore = "takes minutes: cargo test -p tolman-maps --test it -- --ignored looks_err"]
+#[ignore = "takes minutes: cargo test -p tolman-maps --all-features --test it -- --ignored looks_err"]
 fn looks_err_as_seldom_as_they_state_ten_thousand_times() {
     let (all, wrong, expected) = looks_of(100..4300);
     assert!(all >= 10_000, "{all}");
