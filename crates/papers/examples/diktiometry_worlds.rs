@@ -26,6 +26,7 @@ use tolman_papers::diktiometry::{ABLATIONS, Change};
 use tolman_sim::abstract_world::{AbstractWorld, MoveNoise};
 use walk::{
     COMPASS, ODOMETRY, ROUGH, Scripted, Walk, alike, blocks, braided_corridors, open, painted,
+    rooms,
 };
 
 /// A table of the example.
@@ -293,26 +294,18 @@ fn looks(runs: u64) {
     rough.distance = 0.2;
     rough.compass = 2.0 * COMPASS;
     rough.look = 0.2;
-    // Square rooms of `room` places each way.
-    let room = |side: u16, room: u32| {
-        let side = u32::from(side);
-        move |place: u32| (place / side % room) * side + place % side % room
-    };
     type Build<'a> = &'a dyn Fn(u32, u64) -> AbstractWorld;
     let corridors: Build<'_> = &|colours, seed| {
         let maze = blocks(SIDE, 0.25, &mut ChaCha8Rng::seed_from_u64(seed));
         AbstractWorld::from_corridors(&maze, 1.0).painted(colours, seed)
     };
     let plain: Build<'_> = &|colours, seed| open(SIDE).painted(colours, seed);
-    let rooms: Build<'_> = &|colours, seed| plain(colours, seed).looking_like(room(SIDE, 3));
-    let hotel: Build<'_> = &|colours, seed| {
-        let world = open(20).painted(colours, seed);
-        world.looking_like(room(20, 4))
-    };
+    let small: Build<'_> = &|colours, seed| rooms(SIDE, 3, colours, seed);
+    let hotel: Build<'_> = &|colours, seed| rooms(20, 4, colours, seed);
     let worlds = [
         ("corridors", corridors, &[1, 2, 3, 5, 8][..]),
         ("open", plain, &[1, 2, 3, 5, 8]),
-        ("rooms of 3 × 3 places alike", rooms, &[3, 8]),
+        ("rooms of 3 × 3 places alike", small, &[3, 8]),
         ("20 × 20, rooms of 4 × 4 alike", hotel, &[3, 8]),
     ];
     for (name, world, walls) in worlds {

@@ -1,7 +1,9 @@
 //! A replay as a recording: a chunk for each entity, with a row for each of its events.
 
+use core::hash::Hasher;
 use std::collections::BTreeMap;
 
+use fnv::FnvHasher;
 use re_chunk::{Chunk, ChunkBuilder, ChunkError, ChunkId, EntityPath, RowId, TimePoint};
 use re_log_encoding::Encoder;
 use re_log_types::external::re_tuid::Tuid;
@@ -182,6 +184,7 @@ impl Recording {
 
 /// Returns the hash FNV-1a of some bytes.
 fn fnv64(bytes: &[u8]) -> u64 {
-    let mix = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, mix)
+    let mut hash = FnvHasher::default();
+    hash.write(bytes);
+    hash.finish()
 }

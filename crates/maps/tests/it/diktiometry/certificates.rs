@@ -7,11 +7,11 @@ use tolman_maps::diktiometry::{
     Action, Apart, CertifiedMerges, Config, JournalLength, JournalSpan, MergeCertificate,
     MergeCertificateError, MergeProof, Use, WorldKind, certify_merges, verify_merges,
 };
+use tolman_maze::Maze;
 use tolman_maze::drawings::{ladder_of, ring, spiral};
-use tolman_maze::{Braided, Maze};
 use tolman_sim::abstract_world::{AbstractWorld, MoveNoise};
 
-use super::walk::{ODOMETRY, Walk, alike, blocks, open, painted};
+use super::walk::{ODOMETRY, Walk, alike, blocks, braided, painted, rooms};
 
 /// Returns a walk through blocks where nothing changes, and what is proven of its map.
 pub(super) fn walked(config: Config, seed: u64) -> (Walk, CertifiedMerges) {
@@ -101,15 +101,6 @@ fn a_ring_is_proven_by_its_turns() {
     assert!(proven >= 24, "{proven}");
 }
 
-fn braided(rng: &mut ChaCha8Rng) -> Maze {
-    let shape = Braided {
-        width: 8,
-        height: 8,
-        share: 0.6,
-    };
-    shape.generate(rng).unwrap()
-}
-
 /// Returns a walk through long painted corridors, or through rooms that are furnished alike.
 fn looked(seed: u64) -> (Walk, CertifiedMerges) {
     let mut config = painted();
@@ -119,11 +110,8 @@ fn looked(seed: u64) -> (Walk, CertifiedMerges) {
     let world = match seed % 4 {
         0 => AbstractWorld::from_corridors(&blocks(7, 0.25, &mut rng), 1.0).painted(5, seed),
         1 => AbstractWorld::from_corridors(&ladder_of(11, &mut rng).unwrap(), 1.0).painted(8, seed),
-        2 => AbstractWorld::from_corridors(&braided(&mut rng), 1.0).painted(4, seed),
-        _ => {
-            let room = |place: u32| (place / 9 % 3) * 9 + place % 9 % 3;
-            open(9).painted(8, seed).looking_like(room)
-        }
+        2 => AbstractWorld::from_corridors(&braided(8, 0.6, &mut rng), 1.0).painted(4, seed),
+        _ => rooms(9, 3, 8, seed),
     };
     let mut errors = ODOMETRY;
     errors.distance = 0.4;

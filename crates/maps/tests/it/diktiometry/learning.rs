@@ -13,6 +13,7 @@ use tolman_sim::abstract_world::{AbstractWorld, MoveNoise};
 
 use super::walk::{
     COMPASS, ODOMETRY, Score, Scripted, Walk, alike, blocks, braided_corridors, open, painted,
+    rooms,
 };
 
 fn perfect(places: usize) -> Score {
@@ -175,17 +176,13 @@ fn no_double_is_left_of_a_corridor_gone_to_and_fro() {
 /// are furnished alike.
 #[test]
 fn looks_that_deceive_confuse_no_places() {
-    let room = |place: u32| (place / 9 % 3) * 9 + place % 9 % 3;
-    let rooms = open(9).painted(8, 1).looking_like(room);
     let with = looked_at(open(9).painted(1, 1), Use::On, 1000).score();
     let without = looked_at(open(9).painted(1, 1), Use::Off, 1000).score();
     assert_eq!(with, without);
-    for score in [with, looked_at(rooms, Use::On, 1000).score()] {
+    for score in [with, looked_at(rooms(9, 3, 8, 1), Use::On, 1000).score()] {
         assert!((score.purity - 1.0).abs() < 1e-12, "{score:?}");
     }
-    let hotel = |place: u32| (place / 16 % 4) * 16 + place % 16 % 4;
-    let hotel = open(16).painted(8, 1).looking_like(hotel);
-    let score = looked_at(hotel, Use::On, 1200).score();
+    let score = looked_at(rooms(16, 4, 8, 1), Use::On, 1200).score();
     assert!((score.purity - 1.0).abs() < 1e-12, "{score:?}");
 }
 

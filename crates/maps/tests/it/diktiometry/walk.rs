@@ -269,16 +269,26 @@ pub(crate) fn exits(robot: &AbstractRobot) -> Exits {
     Exits::Seen(exits.map(|direction| Action(direction as u32)).collect())
 }
 
+pub(crate) fn braided(side: u16, share: f64, rng: &mut ChaCha8Rng) -> Maze {
+    let shape = Braided {
+        width: side,
+        height: side,
+        share,
+    };
+    shape.generate(rng).unwrap()
+}
+
+/// Returns an open square of square rooms of `room` places each way, all painted like the first.
+pub(crate) fn rooms(side: u16, room: u32, colours: u32, seed: u64) -> AbstractWorld {
+    let across = u32::from(side);
+    let first = |place: u32| (place / across % room) * across + place % across % room;
+    open(side).painted(colours, seed).looking_like(first)
+}
+
 /// Returns a walk of 1500 moves, with scripts and merges by looks. The world is the corridors of a
 /// braided maze of 6 × 6 cells, with walls of `colours` colours.
 pub(crate) fn braided_corridors(colours: u32, seed: u64) -> Walk {
-    let shape = Braided {
-        width: 6,
-        height: 6,
-        share: 1.0,
-    };
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let maze = shape.generate(&mut rng).unwrap();
+    let maze = braided(6, 1.0, &mut ChaCha8Rng::seed_from_u64(seed));
     let world = AbstractWorld::from_corridors(&maze, 1.0).painted(colours, seed);
     let mut errors = ROUGH;
     errors.stop = 0.0175;
