@@ -27,7 +27,7 @@ pub struct Opportunity {
 
 /// Gain of a new link at a place that may equal another, which may have the link already. It is
 /// less than that of a few walks round the cycle that would decide.
-const IN_DOUBT: f64 = 0.03;
+const IN_DOUBT: f64 = 0.015;
 
 /// Kind of script.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -109,7 +109,7 @@ impl Observer {
     fn go_to_unknown(&self) -> Option<Opportunity> {
         // From a place that may still be another one, known ground may be explored.
         let unknown = |place| !self.untried(place).is_empty();
-        let certain = |place| self.map.place(place).notes.is_empty() && unknown(place);
+        let certain = |place| unknown(place) && self.noted_doubles(place).is_empty();
         let sure = self.script_to(certain).map(|way| (way, 1.0));
         let ((mut script, place), gain) =
             sure.or_else(|| Some((self.script_to(unknown)?, IN_DOUBT)))?;
@@ -149,16 +149,13 @@ impl Observer {
 
     fn close_loop(&self) -> Option<Opportunity> {
         let from = self.place();
-        let notes = &self.map.place(from).notes;
-        if notes.is_empty() {
+        let doubles = self.noted_doubles(from);
+        if doubles.is_empty() {
             return None;
         }
         let steps = steps_from(&Walkable(self), [from.0]);
-        let others = notes.iter().filter_map(|note| {
-            let other = self.map.paths.resolve(note.other)?;
-            let steps = steps[other.index()].filter(|steps| *steps > 0)?;
-            Some((steps, other))
-        });
+        let others = doubles.into_iter();
+        let others = others.filter_map(|other| Some((steps[other.index()]?, other)));
         let (_, other) = others.min()?;
         let (script, _) = self.script_to(|place| place == other)?;
         // A place that is one with another saves a place and its links.
@@ -166,16 +163,39 @@ impl Observer {
         OpportunityKind::CloseLoop.offer(other, script, gain)
     }
 
-    /// Returns the number of walks along a script after one more. The first walk is worth most, so
-    /// no script is preferred forever.
+    /// Returns the noted places that `place` may be one with, by the bounds between them and by
+    /// everything along the same actions. Many are noted when they are new, and settled by what
+    /// became known since. O(notes · ways from both), and a search if any is left.
+    fn noted_doubles(&self, place: PlaceId) -> Vec<PlaceId> {
+        let notes = self.map.place(place).notes.iter();
+        let others = notes.filter_map(|note| self.map.paths.resolve(note.other));
+        let mut others: Vec<PlaceId> = others
+            .filter(|other| self.may_be_one(place, *other))
+            .collect();
+        if !others.is_empty() {
+            let near = self.near(place);
+            others.retain(|other| near.contains(other));
+        }
+        others
+    }
+
+    /// Returns the mean number of walks along the ways of a script, in either direction, after one
+    /// more. The first walk is worth most, so no script is preferred forever.
     fn walks(&self, script: &[Action]) -> f64 {
-        let paths = &self.map.paths;
-        let links = script.iter().scan(self.place(), |at, action| {
-            let link = self.map.link(paths.likeliest(*at, *action)?);
-            *at = link.to;
-            Some(f64::from(link.traversed))
+        let walkable = Walkable(self);
+        let walks = script.iter().scan(self.place(), |at, action| {
+            let step = walkable.ways(*at).find(|step| step.action == *action)?;
+            let from = core::mem::replace(at, step.to);
+            Some(self.traversed(from, step.to) + self.traversed(step.to, from))
         });
-        1.0 + links.sum::<f64>() / script.len().max(1) as f64
+        1.0 + walks.sum::<f64>() / script.len().max(1) as f64
+    }
+
+    /// Returns the number of times that the robot went straight from one place to another.
+    fn traversed(&self, from: PlaceId, to: PlaceId) -> f64 {
+        let links = self.map.paths.outgoing(from);
+        let there = links.filter(|(_, link)| link.to == to);
+        there.map(|(_, link)| f64::from(link.traversed)).sum()
     }
 
     /// Returns the actions from here to the nearest place for which `is_goal` is true, and that
