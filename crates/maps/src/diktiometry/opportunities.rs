@@ -27,7 +27,7 @@ pub struct Opportunity {
 
 /// Gain of a new link at a place that may equal another, which may have the link already. It is
 /// less than that of a few walks round the cycle that would decide.
-const IN_DOUBT: f64 = 0.015;
+const IN_DOUBT: f64 = 0.03;
 
 /// Kind of script.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
