@@ -7,7 +7,7 @@ use tolman_geom::Point;
 
 use super::geometric::Pair;
 use super::{Diagnosis, Verdict};
-use crate::diktiometry::{Action, Config, Diktiometry, Link, LinkId, PlaceId, Use};
+use crate::diktiometry::{Action, Config, Diktiometry, Link, LinkId, PlaceId, Use, WorldKind};
 
 /// Returns the opinion on merging by links. "If two places have nearly identical incoming and
 /// outgoing action link sets (greater than a large fraction go to the same place via equivalent
@@ -66,9 +66,9 @@ fn may_end_alike(map: &Diktiometry, pair: &Pair, of_a: &Link, of_b: &Link) -> bo
 /// coming in on each link in a set) are (nearly) disjoint, then a split is indicated."
 ///
 /// Images of different *actions* only show that the robot turned in different ways. A split is
-/// indicated if the same action led to different places. Two incoming links belong together if some
-/// action led from both to the same place. They are separate if none did although both know the
-/// action. O(degree²).
+/// indicated if the same action led to different places, which cannot be one ([`are_copies`]). Two
+/// incoming links belong together if some action led from both to the same place. They are separate
+/// if none did although both know the action. O(degree²), and a search if there is such an action.
 pub(super) fn split(map: &Diktiometry, place: PlaceId, config: &Config) -> Option<Diagnosis> {
     let limits = &config.restructuring;
     let here = map.place(place);
@@ -92,7 +92,8 @@ pub(super) fn split(map: &Diktiometry, place: PlaceId, config: &Config) -> Optio
     while let Some(at) = rest.iter().position(|image| agrees(&side, image)) {
         side.push(rest.remove(at));
     }
-    let contradicted = |one: &Image| rest.iter().any(|other| one.contradicts(other));
+    let apart = |one, other| !are_copies(map, one, other, config);
+    let contradicted = |one: &Image| rest.iter().any(|other| one.contradicts(other, apart));
     let differ = side.iter().any(contradicted);
     let [weight, others] = [&side, &rest].map(|images| {
         let weights = images.iter().map(Image::weight);
@@ -101,6 +102,15 @@ pub(super) fn split(map: &Diktiometry, place: PlaceId, config: &Config) -> Optio
     (differ && weight.min(others) >= limits.visits).then(|| Diagnosis::Links {
         incoming: rest.iter().map(|image| image.link).collect(),
     })
+}
+
+/// Returns whether two ends of one action may be one place, where proofs are required. In a static
+/// world the action has one end then, which is on the map twice.
+fn are_copies(map: &Diktiometry, one: PlaceId, other: PlaceId, config: &Config) -> bool {
+    let is_proved = !config.restructuring.geometric_merge.trusts_paths();
+    let offset = || map.displacement(one, other, &config.search);
+    let may_be_one = || offset().is_none_or(|offset| offset.contains(Point::origin()));
+    is_proved && config.world == WorldKind::Static && may_be_one()
 }
 
 /// Links taken after one link.
@@ -143,13 +153,13 @@ impl Image {
         })
     }
 
-    fn contradicts(&self, other: &Self) -> bool {
+    fn contradicts(&self, other: &Self, apart: impl Fn(PlaceId, PlaceId) -> bool) -> bool {
         self.any(other, |one, two| {
-            one.action == two.action && one.to != two.to
+            one.action == two.action && one.to != two.to && apart(one.to, two.to)
         })
     }
 
-    fn any(&self, other: &Self, holds: fn(&Taken, &Taken) -> bool) -> bool {
+    fn any(&self, other: &Self, holds: impl Fn(&Taken, &Taken) -> bool) -> bool {
         let mut all = self.taken.iter();
         all.any(|one| other.taken.iter().any(|two| holds(one, two)))
     }
