@@ -67,7 +67,7 @@ impl OpportunityKind {
 impl Observer {
     /// Returns scripts for actions that would help the map, from the place of the best track. The
     /// most worthwhile comes first. Nothing depends on whether they are done. O(places + links ·
-    /// degree).
+    /// degree), and a search for each place with untried actions that may be another.
     ///
     /// The opportunity checker "examines the current mapper state to determine if any scripts are
     /// applicable".
