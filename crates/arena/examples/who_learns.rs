@@ -2,7 +2,8 @@
 #![expect(clippy::print_stdout, reason = "its table is its result")]
 
 use tolman_arena::BoxError;
-use tolman_arena::contest::{Condition, Contest, ContestRobot, Contestant, Schooling};
+use tolman_arena::contest::{Condition, Contest};
+use tolman_arena::registry::{Registry, RobotEntry, Schooling};
 
 const MAZE: &str = "\
 o---o---o---o---o
@@ -18,14 +19,12 @@ fn main() -> Result<(), BoxError> {
     let maze = tolman_maze::read(MAZE)?.maze;
     let schooling = Schooling::default();
     println!("system          map    driven  home");
-    for contestant in [
-        Contestant::Micromouse,
-        Contestant::MslstBetter,
-        Contestant::GngSlamBetter,
-    ] {
+    for name in ["micromouse", "mslst-better", "gng-slam-better"] {
+        let system = Registry::current().system(name);
+        let contestant = system.ok_or("there is no such system")?;
         let contest = Contest {
             contestant,
-            robot: ContestRobot::Pioneer,
+            robot: Some(RobotEntry::LASER_PIONEER),
             maze: &maze,
             name: "two loops",
             condition: Condition::AsMade,
@@ -46,7 +45,7 @@ fn main() -> Result<(), BoxError> {
         });
         println!(
             "{:15} {map:6} {:5.1} m  {way}",
-            contestant.name(),
+            contestant.title(),
             learned.driven
         );
     }

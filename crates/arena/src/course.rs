@@ -224,6 +224,15 @@ impl Course {
         }
     }
 
+    /// Returns the distance between the middles of two neighbouring cells, m.
+    #[must_use]
+    pub fn pitch(&self) -> f64 {
+        match &self.free {
+            Some(free) => free.paving.pitch,
+            None => 2.0 * self.world.cell_centre(Cell::new(0, 0)).x,
+        }
+    }
+
     /// Returns the middle of a cell.
     #[must_use]
     pub fn cell_centre(&self, cell: Cell) -> Point {

@@ -7,11 +7,13 @@
 //! - An [`episode`] is one run of a [`Mind`] of the [`cast`]: a brain of `tolman-systems`, or an
 //!   [`oracle`] that knows the truth.
 //! - [`run`] is the loop that lets any system drive any robot; [`mslst`] lets MSLST learn.
+//! - The [`registry`] lists systems, robots and families by name; a [`contest`](contest::Contest)
+//!   sends any of them into any drawing.
 //!
 //! [`micromouse`] is a paper's mouse and its referee; in the [`competition`] a micromouse explores
 //! a maze for its speed run. [`gngslam`] has the arenas and the data of the place map.
 //! [`bump_walk`] is a robot that only feels walls, and the judge of its map. [`log_score`] judges
-//! ways that were found from logs. [`mms`] is the protocol of the simulator of that name;
+//! ways that were found from logs. [`drawing`] draws maps over worlds. [`mms`] is the protocol of the simulator of that name;
 //! [`foreign`] runs foreign programs under supervision.
 //!
 //! # Who learns a maze
@@ -33,6 +35,7 @@ pub mod contest;
 pub mod course;
 pub mod cpm;
 pub mod diktiometry;
+pub mod drawing;
 pub mod episode;
 mod episode_error;
 pub mod family;
@@ -47,6 +50,7 @@ pub mod mslst;
 pub mod oracle;
 mod outing;
 pub mod pioneer;
+pub mod registry;
 pub mod run;
 mod simulated;
 

@@ -6,15 +6,17 @@ use core::time::Duration;
 
 use tolman_geom::{Point, Pose};
 use tolman_robot::{
-    Body, Guess, Landmark, MapView, Position, Ring, Robot, Scan, SensesLandmarks, Standing, System,
-    Task,
+    Body, Clock, Guess, Landmark, MapView, Mapper, Position, Ranges, Ring, Robot, Rolls, Scan,
+    SensesLandmarks, Standing, System, Task, TurnTranslate,
 };
-use tolman_sim::DoorState;
 use tolman_sim::robots::{CameraPioneer, Epuck, LaserPioneer, Pioneer2dx};
 use tolman_sim::trace::Recordable;
+use tolman_sim::{DoorState, Model};
+use tolman_systems::Origin;
 use tolman_systems::cpm::RingAsEpuck;
 
 use crate::course::Course;
+use crate::registry::view_file;
 use crate::run::{InRun, Limited, Stopwatch};
 use crate::{BoxError, Simulated};
 
@@ -164,7 +166,7 @@ impl RobotFacts {
     pub fn of<M: Depicted>(robot: &Simulated<M>) -> Self {
         let model = robot.model();
         Self {
-            name: M::NAME,
+            name: model.name(),
             body: model.body().clone(),
             ring: model.ring(),
             step_us: model.step_us(),
@@ -205,14 +207,17 @@ impl<M: Depicted> HasSimulated for Simulated<M> {
     }
 }
 
-impl HasSimulated for RingAsEpuck<Simulated<LaserPioneer>> {
-    type Model = LaserPioneer;
+impl<M> HasSimulated for RingAsEpuck<Simulated<M>>
+where
+    M: Depicted + Model<Command = TurnTranslate, Sensing: Ranges + Rolls + Clock>,
+{
+    type Model = M;
 
-    fn simulated(&self) -> &Simulated<LaserPioneer> {
+    fn simulated(&self) -> &Simulated<M> {
         self.robot()
     }
 
-    fn simulated_mut(&mut self) -> &mut Simulated<LaserPioneer> {
+    fn simulated_mut(&mut self) -> &mut Simulated<M> {
         self.robot_mut()
     }
 }
@@ -221,6 +226,22 @@ impl HasSimulated for RingAsEpuck<Simulated<LaserPioneer>> {
 pub trait Depicted: Recordable {
     /// The robot's name, as in the files of maps.
     const NAME: &'static str;
+
+    /// Returns the robot's name; by default [`NAME`](Self::NAME).
+    fn name(&self) -> &'static str {
+        Self::NAME
+    }
+
+    /// Returns the same robot as before its first time step.
+    ///
+    /// # Errors
+    /// If its configuration is out of its bounds.
+    fn again(&self) -> Result<Self, BoxError>
+    where
+        Self: Sized,
+    {
+        Ok(Self::from_config(self.config().clone())?)
+    }
 
     /// Returns the beams of the robot's laser; `None` without a laser.
     fn ring(&self) -> Option<Ring> {
@@ -340,6 +361,15 @@ impl<R: Robot, S> Sent<R, S> {
     ) -> Self {
         let keep = Box::new(keep);
         Self { keep, ..self }
+    }
+
+    /// Keeps the places and links of the map, in the files of `system`.
+    #[must_use]
+    pub fn keeping_its_view(self, system: &'static str, origin: Origin) -> Self
+    where
+        S: Mapper,
+    {
+        self.keeping(move |mapper, _| Ok(Some(view_file(system, &origin, &mapper.map())?)))
     }
 
     /// Lets `judge` say why the map is known to be wrong or unfinished after a task.

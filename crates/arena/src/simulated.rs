@@ -2,10 +2,10 @@ use alloc::sync::Arc;
 
 use tolman_geom::Pose;
 use tolman_robot::{Landmark, Robot, SensesLandmarks};
-use tolman_sim::trace::{Detail, Recordable, Recording};
+use tolman_sim::trace::{Detail, Recording};
 use tolman_sim::{DoorError, DoorState, Model, PlaceError, Solo, StepError, Truth, World, Zone};
 
-use crate::BoxError;
+use crate::{BoxError, Depicted};
 
 /// A simulated robot that senses the zones `start` and `destination` of its world as landmarks, and
 /// leaves a path.
@@ -95,7 +95,7 @@ impl<M: Model> Simulated<M> {
     }
 }
 
-impl<M: Recordable> Simulated<M> {
+impl<M: Depicted> Simulated<M> {
     /// Returns the trace of the run from its first pose on, as JSON lines. They hold the world, the
     /// robot, and every step's command, true pose, bump and readings.
     ///
@@ -113,7 +113,7 @@ impl<M: Recordable> Simulated<M> {
             )
             .into());
         }
-        let model = M::from_config(self.model().config().clone())?;
+        let model = self.model().again()?;
         let mut lines = Vec::new();
         let world = Arc::clone(self.solo.simulation().world());
         let robots = vec![(model, self.path[0])];

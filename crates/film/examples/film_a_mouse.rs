@@ -3,7 +3,8 @@
 #![expect(clippy::print_stdout, reason = "the page is its result")]
 
 use tolman_arena::BoxError;
-use tolman_arena::contest::{Condition, Contest, ContestRobot, Contestant, Moment, Schooling};
+use tolman_arena::contest::{Condition, Contest, Moment};
+use tolman_arena::registry::{Registry, RobotEntry, Schooling};
 use tolman_film::Film;
 
 const MAZE: &str = "\
@@ -18,9 +19,10 @@ o---o---o---o---o
 
 fn main() -> Result<(), BoxError> {
     let maze = tolman_maze::read(MAZE)?.maze;
+    let mouse = Registry::current().system("micromouse");
     let contest = Contest {
-        contestant: Contestant::Micromouse,
-        robot: ContestRobot::Pioneer,
+        contestant: mouse.ok_or("there is no such system")?,
+        robot: Some(RobotEntry::LASER_PIONEER),
         maze: &maze,
         name: "two loops",
         condition: Condition::AsMade,

@@ -4,7 +4,7 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use core::mem;
 
 use tolman_arena::Outing;
-use tolman_geom::{Heading, Point, Pose};
+use tolman_geom::Point;
 use tolman_replay::{
     Belief, Floor, MapEdge, MapGrowth, MapNode, Mark, Marks, Notes, Replay, RobotTrack, Scenery,
     Shape, TimeSeries,
@@ -36,8 +36,6 @@ pub struct Film {
     goal: Option<u32>,
     /// Steps before which the robot was lifted and put down elsewhere.
     lifts: Vec<u32>,
-    /// Pose, in the world, of the frame of the map's places.
-    world_from_map: Pose,
 }
 
 /// Knowledge of a system at one moment, in the world's frame.
@@ -55,13 +53,6 @@ impl Film {
     /// Returns a film that begins before the first action.
     #[must_use]
     pub fn new(outing: &dyn Outing) -> Self {
-        let world_from_map = Pose::new(Point::origin(), Heading::EAST);
-        Self::laid_at(outing, world_from_map)
-    }
-
-    /// Returns a film of an outing whose map and belief have places in a frame at `world_from_map`.
-    #[must_use]
-    pub fn laid_at(outing: &dyn Outing, world_from_map: Pose) -> Self {
         let mut film = Self {
             actions: 0,
             every: 1,
@@ -74,7 +65,6 @@ impl Film {
             met: BTreeMap::new(),
             goal: None,
             lifts: Vec::new(),
-            world_from_map,
         };
         film.map(outing, 0);
         film
@@ -120,12 +110,7 @@ impl Film {
         if !words.is_empty() {
             self.thoughts.say(step, words);
         }
-        let mut belief = outing.belief();
-        for guess in &mut belief {
-            if let Position::Point(at) = &mut guess.at {
-                *at = self.world_from_map.transform(*at);
-            }
-        }
+        let belief = outing.belief();
         if belief.is_empty() && self.belief.entries.is_empty() {
             return;
         }
@@ -169,9 +154,7 @@ impl Film {
             // If the map has no positions, a place is shown where the robot was when the system
             // first believed that it was there.
             let met = self.met.get(&place.id).copied();
-            let told = place.position;
-            let told = told.map(|at| self.world_from_map.transform(at));
-            let Some(at) = site.or(told).or(met) else {
+            let Some(at) = site.or(place.position).or(met) else {
                 continue;
             };
             let node = self.nodes.entry(place.id);

@@ -91,7 +91,7 @@ fn learned_graph(course: &Course) -> Figure {
             }
         }
     }
-    let mut plan = tolman_papers::plan_of_course(course, 560.0);
+    let mut plan = tolman_arena::drawing::plan_of_course(course, 560.0);
     plan.graph(&graph);
     let drawing =
         plan.drawing("A place for each cell of the Large maze, joined where no wall stands.");
@@ -108,7 +108,7 @@ fn distances(course: &Course) -> Figure {
         .map(|cell| (course.world.cell_centre(cell), value(grid.index(cell))))
         .collect();
     let shade = Shade::of("steps to the goal", cells.iter().map(|cell| cell.1)).series(Series(2));
-    let mut plan = tolman_papers::plan_of_course(course, 560.0);
+    let mut plan = tolman_arena::drawing::plan_of_course(course, 560.0);
     plan.cells(&cells, course.corridor_width, &shade);
     Figure::new(
         "cells",

@@ -1,9 +1,7 @@
 //! The tables of the papers, filled by the project's systems. Each paper has a folder.
 //!
-//! [`catalogue`] lists them as the experiments of `tolman experiment`. The folder of each paper
-//! draws its maps and runs: [`mslst::drawing`], [`cpm::drawing`], [`diktiometry::drawing`].
-//! [`plan_of_course`] draws the plan below a run. [`data`] finds external data, and [`real`] reads
-//! logs and pose graphs.
+//! [`catalogue`] lists them as the experiments of `tolman experiment`. [`data`] finds
+//! external data, and [`real`] reads logs and pose graphs.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 extern crate alloc;
@@ -26,8 +24,6 @@ mod tolerances;
 mod venue;
 
 use tolman_experiment::Entry;
-
-pub use plan::plan_of_course;
 
 /// Returns all experiments, in the order in which they are listed.
 #[must_use]

@@ -1,9 +1,8 @@
 use serde::Serialize;
 use thiserror::Error;
 use tolman_arena::BoxError;
-use tolman_arena::contest::{
-    Condition, Contest, ContestError, ContestRobot, Contestant, Schooling, SteppedContest,
-};
+use tolman_arena::contest::{Condition, Contest, ContestError, SteppedContest};
+use tolman_arena::registry::{Registry, Schooling, SystemEntry};
 use tolman_maze::MazeError;
 use tolman_replay::EncodeError;
 
@@ -75,11 +74,12 @@ impl Playground {
     /// Returns the systems that can be chosen: all that learn a map, those that work best first.
     #[must_use]
     pub fn systems() -> Vec<SystemChoice> {
-        let mut systems: Vec<SystemChoice> = Contestant::ALL
-            .into_iter()
-            .filter(|contestant| contestant.learns())
-            .map(choice)
-            .collect();
+        let choice = |system: &dyn SystemEntry| SystemChoice {
+            name: system.title(),
+            about: system.about(),
+            is_paper: system.is_paper(),
+        };
+        let mut systems: Vec<SystemChoice> = Registry::current().learners().map(choice).collect();
         systems.sort_by_key(|choice| choice.is_paper);
         systems
     }
@@ -94,7 +94,8 @@ impl Playground {
         system: &str,
         seed: u64,
     ) -> Result<Session, PlaygroundError> {
-        let contestant = Contestant::named(system).filter(|contestant| contestant.learns());
+        let contestant = Registry::current().system(system);
+        let contestant = contestant.filter(|system| system.learns());
         let contestant = contestant.ok_or_else(|| PlaygroundError::System {
             name: system.to_owned(),
         })?;
@@ -103,7 +104,7 @@ impl Playground {
         }
         let contest = Contest {
             contestant,
-            robot: ContestRobot::Own,
+            robot: None,
             maze: &sketch.maze,
             name: &sketch.name,
             condition: Condition::AsMade,
@@ -113,56 +114,5 @@ impl Playground {
         };
         let stepped = SteppedContest::new(&contest, &self.schooling)?;
         Ok(Session::new(contestant, &sketch.name, seed, stepped))
-    }
-}
-
-const fn choice(contestant: Contestant) -> SystemChoice {
-    let (about, is_paper) = match contestant {
-        Contestant::Mslst => (
-            "learns a graph of states and actions from laser scans, for as long as it may drive",
-            true,
-        ),
-        Contestant::MslstBetter => (
-            "draws walls from laser scans and explores where its map has gaps",
-            false,
-        ),
-        Contestant::Cpm => (
-            "takes paths for sequences of common patterns, on an e-puck",
-            true,
-        ),
-        Contestant::CpmBetter => (
-            "common patterns of paths with dead reckoning and several hypotheses; corridors alone",
-            false,
-        ),
-        Contestant::Diktiometry => (
-            "maps places that look alike, with bounds on where they lie, by a camera",
-            true,
-        ),
-        Contestant::DiktiometryBetter => (
-            "maps places that look alike, with a journal of all its moves; walls have eight colours",
-            false,
-        ),
-        Contestant::GngSlam => (
-            "lets a neural gas learn images, sonar and odometry, after all is gathered",
-            true,
-        ),
-        Contestant::GngSlamBetter => (
-            "maps places by sonar and camera, and corrects its pose while it learns",
-            false,
-        ),
-        Contestant::Micromouse => (
-            "is told the grid, the start and the goal, and explores wall by wall",
-            true,
-        ),
-        Contestant::WallBelief => (
-            "a noisy micromouse: believes in walls, and knows where it is by particles",
-            false,
-        ),
-        Contestant::Baseline(_) => ("learns no map", true),
-    };
-    SystemChoice {
-        name: contestant.name(),
-        about,
-        is_paper,
     }
 }

@@ -3,7 +3,8 @@ use core::hash::Hasher;
 use fnv::FnvHasher;
 use serde::Serialize;
 use tolman_arena::Outing;
-use tolman_arena::contest::{Contestant, SteppedContest, TaskRecord};
+use tolman_arena::contest::{SteppedContest, TaskRecord};
+use tolman_arena::registry::SystemEntry;
 use tolman_film::Film;
 use tolman_geom::Point;
 use tolman_replay::json;
@@ -14,7 +15,7 @@ use crate::{PlaygroundError, Tone};
 /// A system that learns a maze on the page, a few time steps at a time.
 #[derive(Debug)]
 pub struct Session {
-    contestant: Contestant,
+    contestant: &'static dyn SystemEntry,
     maze: String,
     seed: u64,
     contest: SteppedContest,
@@ -62,19 +63,18 @@ pub struct SessionState {
 
 impl Session {
     pub(crate) fn new(
-        contestant: Contestant,
+        contestant: &'static dyn SystemEntry,
         maze: &str,
         seed: u64,
         mut contest: SteppedContest,
     ) -> Self {
         contest.explore();
         let outing = contest.outing();
-        let start = outing.path().first().copied().unwrap_or_default();
         Self {
             contestant,
             maze: maze.to_owned(),
             seed,
-            film: Film::laid_at(outing, contestant.world_from_map(start)).recording_every(EVERY),
+            film: Film::new(outing).recording_every(EVERY),
             contest,
             task: SessionTask::Explore,
             verdict: None,
@@ -147,7 +147,7 @@ impl Session {
     /// # Errors
     /// [`PlaygroundError::Replay`] if it cannot be written.
     pub fn replay(&self) -> Result<String, PlaygroundError> {
-        let title = format!("{} in the maze {}", self.contestant.name(), self.maze);
+        let title = format!("{} in the maze {}", self.contestant.title(), self.maze);
         let film = self.film.clone().replay(self.contest.outing(), title);
         Ok(json(&film.fact("seed", self.seed.to_string()))?)
     }
@@ -173,7 +173,7 @@ impl Session {
     }
 
     fn judge(&self, record: &TaskRecord) -> TaskVerdict {
-        let name = self.contestant.name();
+        let name = self.contestant.title();
         match record {
             TaskRecord::Learned(record) => explored(name, record),
             TaskRecord::Found(record) => found(record),
@@ -183,7 +183,7 @@ impl Session {
 
     /// Returns the caption for the task under way.
     fn under_way(&self, places: usize, guesses: usize) -> String {
-        let name = self.contestant.name();
+        let name = self.contestant.title();
         match self.task {
             SessionTask::Explore => {
                 format!("{name} explores: {} on its map.", count(places, "place"))

@@ -2,7 +2,8 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use tolman_arena::contest::{Condition, Contest, ContestRobot, Contestant, Moment, Schooling};
+use tolman_arena::contest::{Condition, Contest, Moment};
+use tolman_arena::registry::{Registry, Schooling};
 use tolman_maze::{Cell, Direction};
 use tolman_playground::{Playground, Session, SessionState, SessionTask, Sketch, Tone};
 
@@ -47,10 +48,10 @@ fn it_learns_what_the_arena_s_contestant_learns() {
     let sketch = star();
     let (playground, schooling) = (Playground::default(), Schooling::default());
     for system in Playground::systems() {
-        let contestant = Contestant::named(system.name).unwrap();
+        let contestant = Registry::current().system(system.name).unwrap();
         let contest = Contest {
             contestant,
-            robot: ContestRobot::Own,
+            robot: None,
             maze: sketch.maze(),
             name: sketch.name(),
             condition: Condition::AsMade,

@@ -1,7 +1,8 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use tolman_papers::real::{LogSystem, MappedLog, RobotLog};
+use tolman_arena::registry::Registry;
+use tolman_papers::real::{MappedLog, RobotLog};
 
 use crate::errors::{reasons, unread, wrong};
 use crate::map::PyMap;
@@ -14,8 +15,12 @@ use crate::map::PyMap;
 )]
 #[pyo3(signature = (path, system = "scan-matching"))]
 pub(crate) fn map_log(py: Python<'_>, path: PathBuf, system: &str) -> PyResult<PyMap> {
-    let Some(found) = LogSystem::named(system) else {
-        let names = LogSystem::ALL.map(LogSystem::name);
+    let registry = Registry::current();
+    let mapper = registry.system(system).and_then(|found| found.log_mapper());
+    let Some(mapper) = mapper else {
+        let maps = registry.systems.iter();
+        let maps = maps.filter(|system| system.log_mapper().is_some());
+        let names: Vec<&str> = maps.map(|system| system.name()).collect();
         return Err(wrong(format!(
             "system is '{system}' but has to be one of {}",
             names.join(", ")
@@ -25,7 +30,7 @@ pub(crate) fn map_log(py: Python<'_>, path: PathBuf, system: &str) -> PyResult<P
     std::fs::metadata(&path).map_err(|error| unread(&name, &error))?;
     let mapped = py.detach(|| {
         let log = RobotLog::read(&path)?;
-        log.map(found, &log.odometry(), |_| {})
+        log.map(mapper, &log.odometry(), |_| {})
     });
     let mapped = mapped.map_err(|error| wrong(format!("path: {}", reasons(&*error))))?;
     let MappedLog {
@@ -38,7 +43,7 @@ pub(crate) fn map_log(py: Python<'_>, path: PathBuf, system: &str) -> PyResult<P
     Ok(PyMap {
         view: places,
         poses,
-        system: found.name().to_owned(),
+        system: system.to_owned(),
         outcome: "done".to_owned(),
         certainty,
         is_right: None,

@@ -1,9 +1,8 @@
 use std::sync::OnceLock;
 
 use pyo3::prelude::*;
-use tolman_arena::contest::{
-    Condition, Contest, ContestRobot, Contestant, LearnRecord, Moment, Schooling,
-};
+use tolman_arena::contest::{Condition, Contest, LearnRecord, Moment};
+use tolman_arena::registry::{Registry, RobotEntry, Schooling};
 use tolman_arena::run::TaskEnd;
 
 use crate::errors::{refused, wrong};
@@ -13,14 +12,12 @@ use crate::maze::PyMaze;
 /// Returns the names of the systems that learn a map of a maze.
 #[pyfunction]
 pub(crate) fn systems() -> Vec<String> {
-    let all = Contestant::ALL.into_iter();
-    all.filter(|system| system.learns())
-        .map(|system| system.name().to_lowercase().replace(' ', "-"))
-        .collect()
+    let learners = Registry::current().learners();
+    learners.map(|system| system.name().to_owned()).collect()
 }
 
 /// Lets a system learn a map of a maze with a simulated robot: the one of its paper (`"own"`) or
-/// the laser Pioneer (`"pioneer"`). The same `seed` gives the same map.
+/// another that can carry it, such as `"laser-pioneer"`. The same `seed` gives the same map.
 #[pyfunction]
 #[pyo3(signature = (maze, system = "mslst-better", seed = 1, *, robot = "own"))]
 pub(crate) fn learn(
@@ -30,7 +27,8 @@ pub(crate) fn learn(
     seed: u64,
     robot: &str,
 ) -> PyResult<PyMap> {
-    let found = Contestant::named(system).filter(|found| found.learns());
+    let found = Registry::current().system(system);
+    let found = found.filter(|found| found.learns());
     let Some(contestant) = found else {
         return Err(wrong(format!(
             "system is '{system}' but has to be one of {}",
@@ -38,13 +36,8 @@ pub(crate) fn learn(
         )));
     };
     let robot = match robot {
-        "own" => ContestRobot::Own,
-        "pioneer" => ContestRobot::Pioneer,
-        other => {
-            return Err(wrong(format!(
-                "robot is '{other}' but has to be 'own' or 'pioneer'"
-            )));
-        }
+        "own" => None,
+        name => Some(robot_named(name)?),
     };
     let contest = Contest {
         contestant,
@@ -57,6 +50,19 @@ pub(crate) fn learn(
         stopwatch: None,
     };
     py.detach(|| learned(&contest))
+}
+
+/// Returns the robot called `name`.
+fn robot_named(name: &str) -> PyResult<RobotEntry> {
+    let registry = Registry::current();
+    registry.robot(name).ok_or_else(|| {
+        let names = registry.robots.iter().map(|robot| robot.name);
+        let names: Vec<&str> = ["own"].into_iter().chain(names).collect();
+        wrong(format!(
+            "robot is '{name}' but has to be one of {}",
+            names.join(", ")
+        ))
+    })
 }
 
 /// Knowledge that systems learn once, before they are sent out.
@@ -72,7 +78,7 @@ fn learned(contest: &Contest<'_>) -> PyResult<PyMap> {
     });
     let record = record.map_err(|error| refused("maze", &error))?;
     if let Some(why) = record.abstained {
-        let name = contest.contestant.name();
+        let name = contest.contestant.title();
         return Err(wrong(format!("maze: {name} cannot learn it: {why}")));
     }
     let (Some(learned), Some((view, poses))) = (record.learned, seen) else {

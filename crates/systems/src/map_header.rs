@@ -1,20 +1,23 @@
 //! The one form of files that hold a learned map: JSON with a header that every system shares.
 //!
 //! A file begins
-//! `{"format":"tolman-map","version":2,"system":"mslst","world":"J","drawing":"5f1…","robot":"laser
-//! Pioneer","seed":1,` and continues with the system's own fields. Files of other versions and of
-//! former formats are refused by name.
+//! `{"format":"tolman-map","version":3,"system":"mslst","world":"J","drawing":"5f1…","robot":"laser
+//! Pioneer","seed":1,` and continues with the system's own fields. Files of version 2, which
+//! had other names of systems, are read; older ones and former formats are refused by name.
 
 // Input holds any bytes: a reader indexes nothing.
 #![cfg_attr(not(test), warn(clippy::indexing_slicing))]
 
-use serde::de::DeserializeOwned;
+use alloc::collections::BTreeMap;
+
+use serde::de::{DeserializeOwned, IgnoredAny};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 const FORMAT: &str = "tolman-map";
-/// Version of the header and of every system's part. Other versions are not read.
-const VERSION: u32 = 2;
+/// Version of the header and of every system's part. Version 2 had other names of systems.
+const VERSION: u32 = 3;
+const BEFORE: u32 = 2;
 
 /// Former formats of single systems, each with the system that wrote it.
 const FORMER: [(&str, &str); 3] = [
@@ -79,7 +82,7 @@ pub enum FileError {
     },
     /// This version is no longer read, or never existed.
     #[error(
-        "its version is {found}, but this program reads only {VERSION}: make a new map with `tolman learn`"
+        "its version is {found}, but this program reads only {BEFORE} and {VERSION}: make a new map with `tolman learn`"
     )]
     FormerVersion {
         /// Version that the file names.
@@ -158,10 +161,33 @@ fn header(text: &str) -> Result<Header, FileError> {
     if version > VERSION {
         return Err(FileError::LaterVersion { found: version });
     }
-    if version < VERSION {
+    if version < BEFORE {
         return Err(FileError::FormerVersion { found: version });
     }
-    serde_json::from_str(text).map_err(FileError::Header)
+    let mut header: Header = serde_json::from_str(text).map_err(FileError::Header)?;
+    if version == BEFORE {
+        header.system = present_name(header.system, text);
+    }
+    Ok(header)
+}
+
+/// Returns the present name of the system of a file of version 2. What was called `diktiometry` and
+/// `gngslam` were the better ones, and `cpm` both.
+fn present_name(system: String, text: &str) -> String {
+    #[derive(Deserialize)]
+    struct Body {
+        mode: BTreeMap<String, IgnoredAny>,
+    }
+    let is_papers = |text| {
+        let body: Result<Body, _> = serde_json::from_str(text);
+        body.is_ok_and(|body| body.mode.contains_key("paper"))
+    };
+    match &*system {
+        "diktiometry" => "diktiometry-better".to_owned(),
+        "gngslam" => "gng-slam-better".to_owned(),
+        "cpm" if !is_papers(text) => "cpm-better".to_owned(),
+        _ => system,
+    }
 }
 
 /// Returns the name of a file's system, and the origin of its map.
@@ -246,7 +272,7 @@ mod tests {
             part: f64,
         }
         let text = text();
-        let start = r#"{"format":"tolman-map","version":2,"system":"cpm","world":"J","robot":"e-puck","seed":18446744073709551615,"part":0.1}"#;
+        let start = r#"{"format":"tolman-map","version":3,"system":"cpm","world":"J","robot":"e-puck","seed":18446744073709551615,"part":0.1}"#;
         assert_eq!(text, format!("{start}\n"));
         assert_eq!(origin_of(&text).unwrap(), ("cpm".to_owned(), origin()));
         let (read, body): (_, Body) = CPM.read(&text).unwrap();

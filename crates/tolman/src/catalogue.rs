@@ -1,20 +1,17 @@
+use tolman_arena::registry::{Registry, RobotEntry, SystemEntry};
 use tolman_experiment::Entry;
 
 use crate::Family;
 use crate::replay_format::{self, ReplayFormat};
-use crate::system::SystemEntry;
-use crate::systems::{CpmEntry, DiktiometryEntry, GngSlamEntry, MslstBetterEntry, MslstEntry};
 
-/// The systems, families of worlds, experiments and formats that the command knows by name.
+/// The systems, robots, families of worlds, experiments and formats that the command knows by name.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Catalogue {
     /// Name of the program, which reports and replays give as their maker.
     pub program: &'static str,
-    /// Systems that learn maps.
-    pub systems: Vec<&'static dyn SystemEntry>,
-    /// Families of worlds.
-    pub families: Vec<Family>,
+    /// Systems, robots and families of worlds, which the experiments look up too.
+    pub registry: Registry,
     /// Experiments, in the order in which they are listed.
     pub experiments: Vec<Entry>,
     /// Formats of replays in addition to HTML.
@@ -27,14 +24,7 @@ impl Catalogue {
     pub fn tolman() -> Self {
         Self {
             program: "tolman",
-            systems: vec![
-                &MslstEntry,
-                &MslstBetterEntry,
-                &CpmEntry,
-                &DiktiometryEntry,
-                &GngSlamEntry,
-            ],
-            families: Family::all(),
+            registry: Registry::tolman(),
             experiments: tolman_papers::catalogue().to_vec(),
             replay_formats: replay_format::built_in(),
         }
@@ -49,14 +39,21 @@ impl Catalogue {
     /// Returns the catalogue with one more system.
     #[must_use]
     pub fn system(mut self, system: &'static dyn SystemEntry) -> Self {
-        self.systems.push(system);
+        self.registry.systems.push(system);
+        self
+    }
+
+    /// Returns the catalogue with one more robot.
+    #[must_use]
+    pub fn robot(mut self, robot: RobotEntry) -> Self {
+        self.registry.robots.push(robot);
         self
     }
 
     /// Returns the catalogue with one more family of worlds.
     #[must_use]
     pub fn family(mut self, family: Family) -> Self {
-        self.families.push(family);
+        self.registry.families.push(family);
         self
     }
 

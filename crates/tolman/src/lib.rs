@@ -1,7 +1,7 @@
 //! The application: it combines robots, systems, worlds and tables, and is the `tolman` command.
 //!
 //! A [`Catalogue`] lists what the command knows by name, and [`run`] is the command. To add a
-//! [system](system::SystemEntry) or an experiment of your own, write a program that adds it to the
+//! [system](registry::SystemEntry), a robot or an experiment of your own, write a program that adds it to the
 //! catalogue:
 //!
 //! ```no_run
@@ -20,13 +20,10 @@ extern crate alloc;
 mod catalogue;
 mod cli;
 mod replay_format;
-mod start;
-pub mod system;
-pub mod systems;
 
 pub use catalogue::Catalogue;
 pub use cli::run;
 pub use replay_format::ReplayFormat;
-pub use start::Start;
 pub use tolman_arena::family::Family;
+pub use tolman_arena::registry::{self, Start};
 pub use tolman_experiment::Build;

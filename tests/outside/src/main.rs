@@ -1,9 +1,9 @@
 //! The command `tolman` with a system, a robot, a family of worlds and an experiment of one's own.
 
+mod entry;
 mod experiment;
 mod robot;
 mod system;
-mod tank_entry;
 mod world;
 
 use std::process::ExitCode;
@@ -13,8 +13,8 @@ use tolman::{Build, Catalogue};
 fn main() -> ExitCode {
     let catalogue = Catalogue::tolman()
         .program("outside")
-        .system(&system::PacesEntry)
-        .system(&tank_entry::TankEntry)
+        .system(&entry::PacesEntry)
+        .robot(robot::TANK)
         .family(world::TEETH)
         .experiment(experiment::ENTRY);
     let commit = option_env!("OUTSIDE_COMMIT").unwrap_or("unknown");

@@ -1,10 +1,12 @@
 //! A robot: a Pioneer on tracks, which turn it less far than they are told to.
 
-use tolman_arena::Depicted;
+use tolman::registry::RobotEntry;
+use tolman_arena::pioneer::calibrated;
 use tolman_sim::robot::{Body, LaserSensing, TurnTranslate};
-use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig, RobotConfigError};
-use tolman_sim::{Chance, CommandError, Contact, Model, Motion, Surroundings, trace::Recordable};
-pub struct Tank(LaserPioneer);
+use tolman_sim::robots::LaserPioneer;
+use tolman_sim::{Chance, CommandError, Contact, Model, Motion, Surroundings};
+
+struct Tank(LaserPioneer);
 
 impl Model for Tank {
     type Command = TurnTranslate;
@@ -36,17 +38,7 @@ impl Model for Tank {
     }
 }
 
-impl Recordable for Tank {
-    type Config = LaserPioneerConfig;
-    type ConfigError = RobotConfigError;
-    fn config(&self) -> &LaserPioneerConfig {
-        self.0.config()
-    }
-    fn from_config(config: LaserPioneerConfig) -> Result<Self, RobotConfigError> {
-        LaserPioneer::new(config).map(Self)
-    }
-}
-
-impl Depicted for Tank {
-    const NAME: &'static str = "tank";
-}
+pub const TANK: RobotEntry = RobotEntry::laser("tank", "tank", "a laser Pioneer on tracks")
+    .made_by(calibrated, |config| {
+        Ok(Box::new(Tank(LaserPioneer::new(config)?)))
+    });

@@ -1,13 +1,11 @@
 //! A system: it wanders, and its map is its paces, one for each action that was completed.
 
-use tolman::system::{Setup, SystemEntry, laser_pioneer};
-use tolman_arena::{Outing, Sent};
 use tolman_systems::baselines::AvoidBrain;
 use tolman_systems::robot::{Mapper, Standing, Task};
-use tolman_systems::{Actor, Brain, Doing, MapFiles, TimeStep};
+use tolman_systems::{Brain, Doing, TimeStep};
 use tolman_systems::{control::Outcome, maze::Direction, rand::Rng};
 
-#[derive(Debug, Default, serde::Serialize)]
+#[derive(Debug, Default, serde::Deserialize, serde::Serialize)]
 pub struct Paces {
     path: Vec<(i8, i8)>,
     #[serde(skip)]
@@ -36,25 +34,5 @@ impl Brain for Paces {
             Task::Explore if self.path.len() >= 200 => Standing::Done,
             _ => Standing::UnderWay,
         }
-    }
-}
-
-pub struct PacesEntry;
-
-pub const FILES: MapFiles = MapFiles { system: "paces" };
-
-impl SystemEntry for PacesEntry {
-    fn name(&self) -> &'static str {
-        FILES.system
-    }
-
-    fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, anyhow::Error> {
-        let (course, robot, layers) = laser_pioneer(setup)?;
-        let origin = setup.origin(&course, "laser Pioneer");
-        let actor = Actor::seeded(Paces::default(), layers, setup.seed);
-        let sent = Sent::new(course, robot, u32::MAX, actor);
-        let keep =
-            move |actor: &Actor<Paces>, _: &_| Ok(Some(FILES.write(&origin, actor.brain())?));
-        Ok(Box::new(sent.keeping(keep)))
     }
 }

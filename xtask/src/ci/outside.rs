@@ -11,21 +11,14 @@ use crate::workspace;
 /// Commit that the program is told it was built from.
 const COMMIT: &str = "0123abcd";
 
-/// Builds the program, and lets it draw a world, learn it and run an experiment.
+/// Builds the program, and lets its system and its robot work in its worlds, by every verb.
 ///
 /// # Errors
 /// If it does not build, one of its commands fails, or its report names another program or commit.
 pub(crate) fn check() -> Result<()> {
     let folder = workspace::root().join("tests/outside");
     let target = workspace::target_folder()?;
-    for file in [
-        "main",
-        "system",
-        "robot",
-        "tank_entry",
-        "world",
-        "experiment",
-    ] {
+    for file in ["main", "system", "robot", "world", "experiment"] {
         let source = folder.join("src").join(file).with_extension("rs");
         let lines = fs::read_to_string(&source)?.lines().count();
         ensure!(
@@ -45,19 +38,37 @@ pub(crate) fn check() -> Result<()> {
         fs::remove_dir_all(&work)?;
     }
     fs::create_dir_all(&work)?;
-    for line in [
-        "maze generate teeth --size 5x4 --seed 2 --out teeth.maze",
-        "learn --system paces --maze teeth.maze --out paces.json",
-        "map show paces.json",
-        "learn --system paces-of-a-tank --maze teeth.maze --out tank.json --trace tank.jsonl --replay tank.html",
-        "experiment combs --quick --out combs",
-    ] {
+    let command = |line: &str| {
         let mut command = Command::new(target.join("debug/outside"));
         command.current_dir(&work).args(line.split(' '));
         // As a user calls it, not through Cargo.
         command.env_remove("CARGO");
-        workspace::succeed(&mut command)?;
+        command
+    };
+    for line in [
+        "maze generate teeth --size 5x4 --seed 2 --out teeth.maze",
+        "learn --system paces --maze teeth.maze --out paces.json",
+        "map show paces.json",
+        "drive --map paces.json --maze teeth.maze --seed 2",
+        "learn --system paces --robot tank --maze teeth.maze --out tank.json --trace tank.jsonl --replay tank.html",
+        "learn --system mslst-better --robot tank --maze teeth.maze --out better.json",
+        "systems --json",
+        "arena --system paces --family all --worlds 1",
+        "arena --system mslst-better --robot tank --family teeth --condition doors --worlds 1",
+        "experiment combs --quick --out combs",
+    ] {
+        workspace::succeed(&mut command(line))?;
     }
+    // Its system never says where it is.
+    let demo = "demo --system paces --maze teeth.maze --out demo.html";
+    let mut demo = command(demo);
+    let done = demo.output()?;
+    ensure!(
+        done.status.code() == Some(1),
+        "demo ended with {}",
+        done.status
+    );
+    ensure!(work.join("demo.html").is_file(), "demo wrote no replay");
     names_itself(&work.join("combs/config.toml"))
 }
 

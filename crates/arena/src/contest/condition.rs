@@ -1,13 +1,19 @@
+use alloc::sync::Arc;
+
 use rand::{Rng, RngExt};
+use tolman_control::unit_of;
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_sim::noise::{Fault, Gaussian};
 use tolman_sim::robots::{
     EpuckConfig, LaserPioneerConfig, MotorNoise, Pioneer2dxConfig, Pioneer2dxFaults, WheelScale,
 };
+use tolman_sim::{Door, DoorState, Material, WorldError};
 use tolman_systems::stream;
 
+use crate::course::Course;
 use crate::diktiometry::SurveyorConfig;
 use crate::pioneer::without_noise;
+use crate::registry::slug;
 
 /// Change of robot and world, of which the system is not told.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -81,13 +87,12 @@ impl Condition {
     /// offset. `None` if there is none.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
-        let slug = |name: &str| name.to_lowercase().replace(' ', "-");
         let mut all = Self::ALL.into_iter();
         all.find(|condition| slug(&condition.name()) == slug(name))
     }
 
     /// Returns the e-puck under this condition.
-    pub(super) fn epuck(self, mut robot: EpuckConfig) -> EpuckConfig {
+    pub(crate) fn epuck(self, mut robot: EpuckConfig) -> EpuckConfig {
         match self {
             Self::Wheels(percent) => robot.wheels.push(constant(share(percent))),
             Self::ConstantOdometry => robot.wheels = vec![constant(ODOMETRY)],
@@ -100,7 +105,7 @@ impl Condition {
     }
 
     /// Returns the laser Pioneer under this condition.
-    pub(super) fn laser_pioneer(
+    pub(crate) fn laser_pioneer(
         self,
         mut robot: LaserPioneerConfig,
         seed: u64,
@@ -132,7 +137,7 @@ impl Condition {
     }
 
     /// Returns the Pioneer 2-DX under this condition.
-    pub(super) fn pioneer_2dx(self, mut robot: Pioneer2dxConfig, seed: u64) -> Pioneer2dxConfig {
+    pub(crate) fn pioneer_2dx(self, mut robot: Pioneer2dxConfig, seed: u64) -> Pioneer2dxConfig {
         let faults = &mut robot.faults;
         match self {
             Self::Wheels(percent) => robot.wheel_scale = wheels(percent, seed),
@@ -158,7 +163,7 @@ impl Condition {
 
     /// Returns the diktiometry's robot under this condition. As made, its odometry has the same
     /// error for several time steps at a time.
-    pub(super) fn surveyor(self, robot: SurveyorConfig, seed: u64) -> SurveyorConfig {
+    pub(crate) fn surveyor(self, robot: SurveyorConfig, seed: u64) -> SurveyorConfig {
         let hold_steps = match self {
             Self::ConstantOdometry => u32::MAX,
             Self::FreshOdometry => 1,
@@ -186,7 +191,7 @@ impl Condition {
     /// Returns the opening that is a door, as a cell and the way out of it: a random opening
     /// without which all cells stay connected. `None` if there is no such opening, or if this
     /// condition has no door.
-    pub(super) fn door(self, maze: &Maze, seed: u64) -> Option<(Cell, Direction)> {
+    pub(crate) fn door(self, maze: &Maze, seed: u64) -> Option<(Cell, Direction)> {
         if self != Self::Doors {
             return None;
         }
@@ -216,6 +221,34 @@ impl Condition {
             _ => Fault::Slip { share: ODOMETRY },
         }
     }
+}
+
+/// Name of the door.
+pub(super) const DOOR: &str = "door";
+
+/// Returns the course with a door, which stands open, in this opening.
+///
+/// # Errors
+/// If the world has a door of this name.
+pub(crate) fn with_door(
+    mut course: Course,
+    (cell, way): (Cell, Direction),
+) -> Result<Course, WorldError> {
+    let next = course.maze.grid().neighbour(cell, way).unwrap_or(cell);
+    let [here, there] = [cell, next].map(|cell| course.cell_centre(cell));
+    let middle = here + 0.5 * (there - here);
+    let half = unit_of(way.left()) * (0.5 * course.corridor_width);
+    let door = Door {
+        name: DOOR.to_owned(),
+        start: middle - half,
+        end: middle + half,
+        material: Material::default(),
+        state: DoorState::Open,
+        schedule: Vec::new(),
+    };
+    let world = (*course.world).clone().with_door(door)?;
+    course.world = Arc::new(world);
+    Ok(course)
 }
 
 const MISSES: Fault = Fault::DropOut {

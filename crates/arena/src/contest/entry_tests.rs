@@ -3,8 +3,9 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use super::{Condition, Contest, ContestRobot, Contestant, Moment, Schooling};
+use super::{Condition, Contest, Moment};
 use crate::family::Family;
+use crate::registry::{Registry, RobotEntry, Schooling};
 
 const SEEDS: u64 = 5;
 
@@ -16,11 +17,11 @@ fn every_system_can_be_sent_into_every_family_or_says_in_a_sentence_why_not() {
         for size in family.sizes {
             for seed in 0..SEEDS {
                 let maze = (family.draw)(size, &mut ChaCha8Rng::seed_from_u64(seed)).unwrap();
-                for contestant in Contestant::ALL.into_iter().filter(|one| one.learns()) {
+                for contestant in Registry::current().learners() {
                     let what = format!("{contestant:?} in {} {size:?} {seed}", family.name);
                     let robot = match seed % 2 {
-                        0 => ContestRobot::Own,
-                        _ => ContestRobot::Pioneer,
+                        0 => None,
+                        _ => Some(RobotEntry::LASER_PIONEER),
                     };
                     let contest = Contest {
                         contestant,
@@ -32,14 +33,14 @@ fn every_system_can_be_sent_into_every_family_or_says_in_a_sentence_why_not() {
                         seed,
                         stopwatch: None,
                     };
-                    if let Some(why) = contestant.abstains(&maze, robot) {
+                    if let Some(why) = contest.abstains() {
                         let words = why.split_whitespace().count();
                         assert!((5..25).contains(&words), "{what}: {why}");
                         assert!(!why.ends_with('.') && !why.contains(". "), "{what}: {why}");
                         abstained += 1;
                         continue;
                     }
-                    let entered = contestant.enter(&contest, &schooling);
+                    let entered = contest.enter(&schooling);
                     assert!(entered.is_ok(), "{what}: {:?}", entered.err());
                     sent += 1;
                 }
@@ -60,8 +61,8 @@ fn better_mslst_names_a_place_for_each_time_step() {
         let family = Family::ARENA[0];
         let maze = (family.draw)(family.sizes[0], &mut ChaCha8Rng::seed_from_u64(1)).unwrap();
         let contest = Contest {
-            contestant: Contestant::MslstBetter,
-            robot: ContestRobot::Own,
+            contestant: Registry::current().system("mslst-better").unwrap(),
+            robot: None,
             maze: &maze,
             name: family.name,
             condition,

@@ -1,12 +1,11 @@
 //! Sends every system into every kind of world, and judges all systems by the same truth.
 //!
-//! A [`Contest`] sends one [`Contestant`] into one drawing. The contestant learns. It is put down
+//! A [`Contest`] sends one [system](crate::registry::SystemEntry) into one drawing. The contestant learns. It is put down
 //! somewhere and localizes; then it is put down somewhere else and drives to the goal. Its map is
 //! compared with the drawing's [`TrueGraph`], which it never sees.
 //! A [`SteppedContest`] is played action by action.
 
 mod condition;
-mod contestant;
 #[cfg(test)]
 mod entry_tests;
 mod ideal;
@@ -22,8 +21,9 @@ mod wanderers;
 mod whereabouts;
 
 pub use condition::Condition;
-pub use contestant::{ContestRobot, Contestant, Schooling};
+pub(crate) use condition::with_door;
 pub use judgement::{MapJudgement, judge};
+pub(crate) use pathfinder::Pathfinder;
 pub use play::{
     Claim, Contest, ContestError, ContestRecord, Home, LearnRecord, LocateOutcome, Located, Moment,
 };

@@ -5,14 +5,14 @@ use tolman_robot::{
     Compass, Guess, Landmark, MapView, Mapper, Ranges, Robot, Rolls, SensesLandmarks, Standing,
     System, Task, TurnTranslate,
 };
-use tolman_systems::diktiometry::{Diktiometer, Eye, Wayfinder};
+use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig, Eye, Wayfinder};
 
 use crate::BoxError;
 
 /// The whole diktiometry: learns a map, and finds its way on the map after it was put down
 /// anywhere.
 #[derive(Debug)]
-pub(super) struct Pathfinder<E> {
+pub(crate) struct Pathfinder<E> {
     learner: Diktiometer<E>,
     /// Finder of the way since the robot was put down; `None` before.
     finder: Option<Wayfinder<E>>,
@@ -20,10 +20,11 @@ pub(super) struct Pathfinder<E> {
     seed: u64,
 }
 
-impl<E> Pathfinder<E> {
-    pub(super) const fn new(learner: Diktiometer<E>, eye: E, seed: u64) -> Self {
+impl<E: Clone> Pathfinder<E> {
+    /// Returns a system without a map.
+    pub(crate) fn learning(config: DiktiometerConfig, eye: E, seed: u64) -> Self {
         Self {
-            learner,
+            learner: Diktiometer::new(config, eye.clone(), seed),
             finder: None,
             eye,
             seed,

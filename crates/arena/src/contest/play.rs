@@ -1,19 +1,17 @@
 use alloc::borrow::Cow;
 use alloc::collections::BTreeSet;
-use alloc::sync::Arc;
 use core::time::Duration;
 
 use rand::{Rng, RngExt};
 use thiserror::Error;
-use tolman_control::{heading_of, unit_of};
+use tolman_control::heading_of;
 use tolman_geom::{Point, Pose};
-use tolman_maze::{Cell, Direction, Maze};
+use tolman_maze::{Cell, Direction, Maze, MazeFile};
 use tolman_robot::{Goal, Landmark, Standing, Task};
-use tolman_sim::{Door, DoorState, Material, WorldError};
+use tolman_sim::DoorState;
 use tolman_systems::stream;
 
-use super::condition::Condition;
-use super::contestant::{ContestRobot, Contestant, Entered, Schooling};
+use super::condition::{Condition, DOOR};
 use super::ideal::IdealObserver;
 use super::judgement::{MapJudgement, judge};
 use super::paint::Paint;
@@ -21,7 +19,10 @@ use super::sites::Sites;
 use super::true_graph::TrueGraph;
 use super::wanderers::Sender;
 use super::whereabouts::{PlaceVisit, Squares, believed};
-use crate::course::Course;
+use crate::course::{Course, Terrain};
+use crate::registry::{
+    Registry, RobotEntry, RobotKind, Schooling, Settings, Setup, Start, SystemEntry,
+};
 use crate::run::{Stopwatch, TaskEnd};
 use crate::{BoxError, Outing};
 
@@ -29,9 +30,9 @@ use crate::{BoxError, Outing};
 #[derive(Clone, Copy, Debug)]
 pub struct Contest<'a> {
     /// The system or baseline.
-    pub contestant: Contestant,
-    /// Robot that the contestant drives.
-    pub robot: ContestRobot,
+    pub contestant: &'static dyn SystemEntry,
+    /// Robot that carries the contestant; `None` for the one that it is made for.
+    pub robot: Option<RobotEntry>,
     /// The drawing, which marks start and goal.
     pub maze: &'a Maze,
     /// Name of the drawing.
@@ -252,8 +253,8 @@ pub struct Home {
 const START_STREAM: u64 = 31;
 const KIDNAPPING_STREAM: u64 = 34;
 
-/// Name of the door.
-const DOOR: &str = "door";
+/// Initial limit of time steps, before the contest [allows](Outing::allow) more.
+const NO_STEPS: u32 = 0;
 
 /// Share of the length of all corridors after which a robot is kidnapped.
 const KIDNAPPED_AT: f64 = 0.5;
@@ -273,13 +274,13 @@ impl<'a> Contest<'a> {
         schooling: &Schooling,
         mut watch: impl FnMut(&dyn Outing, Moment),
     ) -> Result<ContestRecord, ContestError> {
-        if let Some(why) = self.contestant.abstains(self.maze, self.robot) {
+        if let Some(why) = self.abstains() {
             return Ok(ContestRecord {
                 abstained: Some(why),
                 ..ContestRecord::default()
             });
         }
-        if let Contestant::Baseline(agent) = self.contestant {
+        if let Some(agent) = self.contestant.baseline() {
             let enter_error = |source| self.enter_error(source);
             let sender = Sender::new(self, agent).map_err(enter_error)?;
             return Ok(ContestRecord {
@@ -288,10 +289,7 @@ impl<'a> Contest<'a> {
                 ..ContestRecord::default()
             });
         }
-        let contestant = self.contestant;
-        let entered = contestant.enter(self, schooling);
-        let entered = entered.map_err(|source| self.enter_error(source))?;
-        let mut bout = Bout::new(self, entered);
+        let mut bout = Bout::new(self, self.enter(schooling)?);
         if let Some(stopwatch) = self.stopwatch {
             bout.outing.measure(stopwatch);
         }
@@ -335,14 +333,53 @@ impl<'a> Contest<'a> {
         })
     }
 
+    /// Returns the robot that carries the contestant.
+    #[must_use]
+    pub fn robot(&self) -> RobotEntry {
+        let own = || Registry::current().robot(self.contestant.own_robot());
+        self.robot.or_else(own).unwrap_or(RobotEntry::LASER_PIONEER)
+    }
+
+    /// Returns the reason why the contestant is not sent, in a sentence without a full stop; `None`
+    /// if it is. O(cells).
+    #[must_use]
+    pub fn abstains(&self) -> Option<String> {
+        if self.contestant.baseline().is_some() {
+            return None;
+        }
+        let why_not = self.contestant.why_not(&self.robot());
+        why_not.or_else(|| self.contestant.abstains(self.maze))
+    }
+
+    /// Puts the contestant at the start of the drawing, in corridors as wide as its robot needs.
+    ///
+    /// # Errors
+    /// [`ContestError::Enter`] if robot and drawing do not fit together.
+    pub(super) fn enter(&self, schooling: &Schooling) -> Result<Box<dyn Outing>, ContestError> {
+        let terrain = Terrain::Maze(MazeFile::from(self.maze.clone()));
+        let setup = Setup {
+            world: self.name,
+            terrain: &terrain,
+            seed: self.seed,
+            start: Some(Start::Marked),
+            steps: Some(NO_STEPS),
+            robot: self.robot(),
+            from: None,
+            settings: Settings {
+                preset: self.contestant.arena_preset(),
+                set: &[],
+            },
+            condition: self.condition,
+            schooling,
+        };
+        let outing = self.contestant.learner(&setup);
+        outing.map_err(|source| self.enter_error(source))
+    }
+
     /// Returns the contestant with the true map, ready to be put down. It learned that map on a
     /// robot without errors. `None` if the map is wrong.
     fn informed(&self, schooling: &Schooling) -> Result<Option<Bout>, ContestError> {
-        let sent = |contest: &Self| {
-            let entered = contest.contestant.enter(contest, schooling);
-            let entered = entered.map_err(|source| self.enter_error(source))?;
-            Ok(Bout::new(contest, entered))
-        };
+        let sent = |contest: &Self| Ok(Bout::new(contest, contest.enter(schooling)?));
         let mut teacher = sent(&Self {
             condition: Condition::Flawless,
             ..*self
@@ -374,28 +411,6 @@ impl<'a> Contest<'a> {
     /// Returns the opening that is a door; see [`Condition::Doors`].
     fn door(&self) -> Option<(Cell, Direction)> {
         self.condition.door(self.maze, self.seed)
-    }
-
-    /// Returns the course with its door.
-    pub(super) fn with_door(&self, mut course: Course) -> Result<Course, WorldError> {
-        let Some((cell, way)) = self.door() else {
-            return Ok(course);
-        };
-        let next = self.maze.grid().neighbour(cell, way).unwrap_or(cell);
-        let [here, there] = [cell, next].map(|cell| course.cell_centre(cell));
-        let middle = here + 0.5 * (there - here);
-        let half = unit_of(way.left()) * (0.5 * course.corridor_width);
-        let door = Door {
-            name: DOOR.to_owned(),
-            start: middle - half,
-            end: middle + half,
-            material: Material::default(),
-            state: DoorState::Open,
-            schedule: Vec::new(),
-        };
-        let world = (*course.world).clone().with_door(door)?;
-        course.world = Arc::new(world);
-        Ok(course)
     }
 
     /// Returns the drawing as it is after the robot has learned.
@@ -430,11 +445,15 @@ impl<'a> Contest<'a> {
 
     /// Returns the ideal observer for a course of the drawing.
     pub(super) fn observer(&self, course: &Course) -> IdealObserver<'a> {
+        let kind = match self.contestant.baseline() {
+            Some(_) => RobotKind::Laser,
+            None => self.robot().kind(),
+        };
         IdealObserver {
             maze: self.maze_afterwards(),
-            has_compass: self.contestant.has_compass(self.robot),
-            reach: self.contestant.sees_cells(self.robot),
-            paint: match self.starts > 0 && self.contestant.sees_colours(self.robot) {
+            has_compass: kind.has_compass(),
+            reach: self.contestant.sees_cells(kind),
+            paint: match self.starts > 0 && kind.sees_colours() {
                 true => Paint::of(course),
                 false => Paint::default(),
             },
@@ -443,7 +462,7 @@ impl<'a> Contest<'a> {
 
     pub(super) fn enter_error(&self, source: BoxError) -> ContestError {
         ContestError::Enter {
-            contestant: self.contestant.name(),
+            contestant: self.contestant.title(),
             world: self.name.to_owned(),
             source,
         }
@@ -451,7 +470,7 @@ impl<'a> Contest<'a> {
 
     pub(super) fn put_error(&self, source: BoxError) -> ContestError {
         ContestError::PutDown {
-            contestant: self.contestant.name(),
+            contestant: self.contestant.title(),
             world: self.name.to_owned(),
             source,
         }
@@ -572,8 +591,8 @@ impl TrueVisits {
 }
 
 impl Bout {
-    pub(super) fn new(contest: &Contest<'_>, entered: Entered) -> Self {
-        let Entered { outing, pitch } = entered;
+    pub(super) fn new(contest: &Contest<'_>, outing: Box<dyn Outing>) -> Self {
+        let pitch = outing.course().pitch();
         let maze = contest.maze;
         let grid = maze.grid();
         Self {
@@ -916,22 +935,29 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
 
     use super::*;
-    use crate::cast::Agent;
     use crate::family::Family;
+
+    fn system(name: &str) -> &'static dyn SystemEntry {
+        Registry::current().system(name).unwrap()
+    }
 
     fn drawn(name: &str) -> Maze {
         let family = Family::named(&Family::ARENA, name).unwrap();
         (family.draw)(family.sizes[0], &mut ChaCha8Rng::seed_from_u64(3)).unwrap()
     }
 
-    fn play(contestant: Contestant, world: &str, robot: ContestRobot) -> ContestRecord {
+    fn play(
+        contestant: &'static dyn SystemEntry,
+        world: &str,
+        robot: Option<RobotEntry>,
+    ) -> ContestRecord {
         taught(contestant, world, robot, &Schooling::default())
     }
 
     fn taught(
-        contestant: Contestant,
+        contestant: &'static dyn SystemEntry,
         world: &str,
-        robot: ContestRobot,
+        robot: Option<RobotEntry>,
         schooling: &Schooling,
     ) -> ContestRecord {
         let maze = drawn(world);
@@ -951,8 +977,8 @@ mod tests {
     #[test]
     fn systems_learn_a_star_and_the_same_contest_comes_to_the_same() {
         let schooling = Schooling::default();
-        for robot in [ContestRobot::Own, ContestRobot::Pioneer] {
-            for contestant in [Contestant::CpmBetter, Contestant::DiktiometryBetter] {
+        for robot in [None, Some(RobotEntry::LASER_PIONEER)] {
+            for contestant in [system("cpm-better"), system("diktiometry-better")] {
                 let record = taught(contestant, "star", robot, &schooling);
                 let learned = record.learned.as_ref().unwrap();
                 assert!(learned.judgement.is_right, "{contestant:?}: {learned:?}");
@@ -978,7 +1004,7 @@ mod tests {
         let learned = |contestant, stopwatch| {
             let contest = Contest {
                 contestant,
-                robot: ContestRobot::Own,
+                robot: None,
                 maze: &maze,
                 name: "star",
                 condition: Condition::AsMade,
@@ -989,8 +1015,8 @@ mod tests {
             let record = contest.play(&schooling, |_, _| {}).unwrap();
             record.learned.unwrap()
         };
-        for contestant in Contestant::ALL {
-            if !contestant.learns() || contestant == Contestant::GngSlamBetter {
+        for contestant in Registry::current().learners() {
+            if contestant.name() == "gng-slam-better" {
                 continue;
             }
             let mut measured = learned(contestant, Some(ticking));
@@ -1000,7 +1026,7 @@ mod tests {
                 "{contestant:?} {bytes:?}"
             );
             assert!(us.is_some_and(|us| us > 0.0), "{contestant:?} {us:?}");
-            if contestant == Contestant::Micromouse {
+            if contestant.name() == "micromouse" {
                 measured.thinking = None;
                 let again = learned(contestant, None);
                 assert_eq!(format!("{measured:?}"), format!("{again:?}"));
@@ -1014,8 +1040,8 @@ mod tests {
         for world in ["ladder", "eight", "office", "wings"] {
             let maze = drawn(world);
             let contest = Contest {
-                contestant: Contestant::MslstBetter,
-                robot: ContestRobot::Own,
+                contestant: system("mslst-better"),
+                robot: None,
                 maze: &maze,
                 name: world,
                 condition: Condition::Flawless,
@@ -1031,7 +1057,7 @@ mod tests {
 
     #[test]
     fn who_cannot_work_somewhere_abstains_before_it_drives() {
-        let record = play(Contestant::Cpm, "pillars", ContestRobot::Own);
+        let record = play(system("cpm"), "pillars", None);
         assert!(record.abstained.unwrap().contains("open square"));
         assert!(record.learned.is_none() && record.homes.is_empty());
     }
@@ -1039,13 +1065,13 @@ mod tests {
     #[test]
     fn a_system_with_a_map_finds_itself_and_the_goal_from_anywhere() {
         for contestant in [
-            Contestant::MslstBetter,
-            Contestant::CpmBetter,
-            Contestant::DiktiometryBetter,
-            Contestant::Micromouse,
-            Contestant::WallBelief,
+            system("mslst-better"),
+            system("cpm-better"),
+            system("diktiometry-better"),
+            system("micromouse"),
+            system("wall-belief"),
         ] {
-            let record = play(contestant, "star", ContestRobot::Own);
+            let record = play(contestant, "star", None);
             let found = &record.found[0];
             assert_eq!(found.outcome, LocateOutcome::Right, "{contestant:?}");
             assert!(found.ceiling.is_some_and(|chance| chance > 0.0));
@@ -1071,9 +1097,9 @@ mod tests {
 
     #[test]
     fn the_paper_s_place_map_needs_a_camera_and_is_not_lifted() {
-        let record = play(Contestant::GngSlam, "star", ContestRobot::Pioneer);
+        let record = play(system("gng-slam"), "star", Some(RobotEntry::LASER_PIONEER));
         assert!(record.abstained.unwrap().contains("camera"));
-        let record = play(Contestant::GngSlam, "star", ContestRobot::Own);
+        let record = play(system("gng-slam"), "star", None);
         let learned = record.learned.unwrap();
         assert_eq!(learned.end, TaskEnd::Done, "{learned:?}");
         assert!(learned.places >= 2 && learned.driven < 1.2 * Contest::LIMIT);
@@ -1084,8 +1110,8 @@ mod tests {
 
     #[test]
     fn an_oracle_comes_home_and_learns_nothing() {
-        let oracle = Contestant::Baseline(Agent::Oracle);
-        let record = play(oracle, "office", ContestRobot::Own);
+        let oracle = system("oracle");
+        let record = play(oracle, "office", None);
         assert!(record.learned.is_none());
         let over = record.homes[0].over_shortest.unwrap();
         assert!(over < 2.0, "{over}");
@@ -1094,8 +1120,8 @@ mod tests {
 
     #[test]
     fn who_has_the_true_map_finds_out_where_it_is() {
-        let oracle = Contestant::Baseline(Agent::UnlocalizedOracle);
-        let record = play(oracle, "star", ContestRobot::Own);
+        let oracle = system("unlocalized-oracle");
+        let record = play(oracle, "star", None);
         assert_eq!(record.found[0].outcome, LocateOutcome::Right);
     }
 
@@ -1106,7 +1132,7 @@ mod tests {
         let played = |contestant, condition| {
             let contest = Contest {
                 contestant,
-                robot: ContestRobot::Own,
+                robot: None,
                 maze: &maze,
                 name: "blocks",
                 condition,
@@ -1116,7 +1142,7 @@ mod tests {
             };
             contest.play(&schooling, |_, _| {}).unwrap()
         };
-        for contestant in [Contestant::CpmBetter, Contestant::DiktiometryBetter] {
+        for contestant in [system("cpm-better"), system("diktiometry-better")] {
             let as_made = format!("{:?}", played(contestant, Condition::AsMade));
             for condition in Condition::ALL {
                 let record = played(contestant, condition);
@@ -1125,7 +1151,7 @@ mod tests {
                 let told = format!("{record:?}");
                 assert_eq!(told, format!("{:?}", played(contestant, condition)));
                 // An e-puck has no compass, and its wheels slip by a fresh share even as made.
-                let is_untouched = contestant == Contestant::CpmBetter
+                let is_untouched = contestant.name() == "cpm-better"
                     && matches!(
                         condition,
                         Condition::CompassOffset | Condition::FreshOdometry
@@ -1141,14 +1167,14 @@ mod tests {
         let schooling = Schooling::default();
         let maze = drawn("blocks");
         for (contestant, condition) in [
-            (Contestant::CpmBetter, Condition::Kidnapping),
-            (Contestant::CpmBetter, Condition::DropOuts),
-            (Contestant::MslstBetter, Condition::Kidnapping),
-            (Contestant::MslstBetter, Condition::DropOuts),
+            (system("cpm-better"), Condition::Kidnapping),
+            (system("cpm-better"), Condition::DropOuts),
+            (system("mslst-better"), Condition::Kidnapping),
+            (system("mslst-better"), Condition::DropOuts),
         ] {
             let contest = Contest {
                 contestant,
-                robot: ContestRobot::Own,
+                robot: None,
                 maze: &maze,
                 name: "blocks",
                 condition,
@@ -1169,7 +1195,7 @@ mod tests {
         let maze = drawn("blocks");
         let contest = |contestant| Contest {
             contestant,
-            robot: ContestRobot::Own,
+            robot: None,
             maze: &maze,
             name: "",
             condition: Condition::AsMade,
@@ -1177,8 +1203,8 @@ mod tests {
             seed: 5,
             stopwatch: None,
         };
-        let starts = contest(Contestant::Mslst).put_downs();
-        assert_eq!(starts, contest(Contestant::CpmBetter).put_downs());
+        let starts = contest(system("mslst")).put_downs();
+        assert_eq!(starts, contest(system("cpm-better")).put_downs());
         assert_eq!(starts.len(), 20);
         for (cell, way) in starts.into_iter().flatten() {
             assert!(maze.is_open(cell, way) && !maze.goals().contains(&cell));
@@ -1187,7 +1213,7 @@ mod tests {
 
     #[test]
     fn a_system_in_its_cage_drives_no_more_than_ten_times_the_corridors() {
-        let record = play(Contestant::Diktiometry, "spiral", ContestRobot::Own);
+        let record = play(system("diktiometry"), "spiral", None);
         let learned = record.learned.unwrap();
         // The last action may exceed the limit a little.
         assert!(learned.driven < 1.2 * Contest::LIMIT, "{learned:?}");

@@ -4,10 +4,10 @@
 use tolman_maze::{Cell, Direction};
 use tolman_robot::{Goal, Landmark, Standing, Task};
 
-use super::contestant::Schooling;
 use super::play::{
     Bout, Contest, ContestError, Driven, LearnRecord, LocateOutcome, Measured, Moment, Pursuit,
 };
+use crate::registry::Schooling;
 use crate::{BoxError, Outing};
 
 /// Result of a [show](Contest::show).
@@ -47,12 +47,10 @@ pub struct FoundOut {
 impl Contest<'_> {
     /// Puts the contestant at the start.
     pub(super) fn bout(&self, schooling: &Schooling) -> Result<Bout, ContestError> {
-        if let Some(why) = self.contestant.abstains(self.maze, self.robot) {
+        if let Some(why) = self.abstains() {
             return Err(self.enter_error(why.into()));
         }
-        let entered = self.contestant.enter(self, schooling);
-        let entered = entered.map_err(|source| self.enter_error(source))?;
-        Ok(Bout::new(self, entered))
+        Ok(Bout::new(self, self.enter(schooling)?))
     }
 
     /// Plays the show and returns its result. Calls `watch` at every [`Moment`].
@@ -62,7 +60,7 @@ impl Contest<'_> {
     /// that cannot be put down elsewhere is put back instead.
     ///
     /// # Errors
-    /// [`ContestError`], also if the contestant [abstains](super::Contestant::abstains).
+    /// [`ContestError`], also if the contestant [abstains](Self::abstains).
     pub fn show(
         &self,
         schooling: &Schooling,

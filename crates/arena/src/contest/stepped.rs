@@ -7,10 +7,10 @@ use tolman_geom::Point;
 use tolman_maze::{Cell, Direction};
 use tolman_robot::Standing;
 
-use super::contestant::{Contestant, Schooling};
 use super::play::{Bout, Contest, ContestError, LearnRecord, Pursuit, TrueVisits};
 use super::show::{FoundOut, WayHome};
 use crate::Outing;
+use crate::registry::{Schooling, SystemEntry};
 use crate::run::TaskEnd;
 
 /// A contestant in a drawing, made to act one action at a time.
@@ -18,7 +18,7 @@ use crate::run::TaskEnd;
 /// It explores, is put down somewhere, finds out where, and goes to the goal, in any order. In the
 /// order of [`Contest::show`] the run is the same, bit for bit.
 pub struct SteppedContest {
-    contestant: Contestant,
+    contestant: &'static dyn SystemEntry,
     world: String,
     bout: Bout,
     stage: Stage,
@@ -47,7 +47,7 @@ impl SteppedContest {
     /// Puts the contestant at the start of the drawing.
     ///
     /// # Errors
-    /// [`ContestError::Enter`], also if the contestant [abstains](Contestant::abstains).
+    /// [`ContestError::Enter`], also if the contestant [abstains](Contest::abstains).
     pub fn new(contest: &Contest<'_>, schooling: &Schooling) -> Result<Self, ContestError> {
         Ok(Self {
             contestant: contest.contestant,
@@ -94,7 +94,7 @@ impl SteppedContest {
         self.stop();
         let standing = self.bout.put_down_or_back(start);
         let standing = standing.map_err(|source| ContestError::PutDown {
-            contestant: self.contestant.name(),
+            contestant: self.contestant.title(),
             world: self.world.clone(),
             source,
         })?;
@@ -166,7 +166,8 @@ impl fmt::Debug for SteppedContest {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contest::{Condition, ContestRobot};
+    use crate::contest::Condition;
+    use crate::registry::Registry;
 
     const STAR: &str = include_str!("../../mazes/star.maze");
 
@@ -174,10 +175,10 @@ mod tests {
     fn step_by_step_it_is_the_same_show() {
         let maze = tolman_maze::read(STAR).unwrap().maze;
         let schooling = Schooling::default();
-        for contestant in Contestant::ALL.into_iter().filter(|one| one.learns()) {
+        for contestant in Registry::current().learners() {
             let contest = Contest {
                 contestant,
-                robot: ContestRobot::Own,
+                robot: None,
                 maze: &maze,
                 name: "star",
                 condition: Condition::AsMade,

@@ -1,8 +1,7 @@
 use tolman_geom::Point;
-use tolman_maze::{Cell, Direction};
+use tolman_maze::{Cell, Direction, MazeFile};
 use tolman_robot::{Guess, Position};
 
-use super::contestant::pioneer_course;
 use super::play::{Contest, Home, LocateOutcome, Located, Measured, NEAR, length};
 use super::whereabouts::Squares;
 use crate::BoxError;
@@ -10,7 +9,7 @@ use crate::cast::{Agent, Cast};
 use crate::course::Course;
 use crate::episode::{self, Episode, Trial};
 use crate::mind::Mind;
-use crate::pioneer::calibrated;
+use crate::pioneer::{body, calibrated};
 
 /// Maximum number of time steps of a run for each metre that may be driven. Turning in place covers
 /// no distance.
@@ -30,10 +29,11 @@ pub(super) struct Sender<'a> {
 
 impl<'a> Sender<'a> {
     pub(super) fn new(contest: &'a Contest<'a>, agent: Agent) -> Result<Self, BoxError> {
+        let file = MazeFile::from(contest.maze_afterwards().into_owned());
         Ok(Self {
             contest,
             agent,
-            course: pioneer_course(contest.name, &contest.maze_afterwards())?,
+            course: Course::for_body(contest.name, &file, &body())?,
             cast: Cast::default(),
         })
     }

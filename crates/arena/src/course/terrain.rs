@@ -44,8 +44,26 @@ impl Terrain {
     /// # Errors
     /// As those.
     pub fn course(&self, name: &str, body: &Body) -> Result<Course, CourseError> {
+        self.course_with(name, body, CORRIDOR_WIDTH)
+    }
+
+    /// Returns the same course; in a maze whose file gives no width, corridors are `usual_width` m
+    /// wide.
+    ///
+    /// # Errors
+    /// As [`course`](Self::course).
+    pub fn course_with(
+        &self,
+        name: &str,
+        body: &Body,
+        usual_width: f64,
+    ) -> Result<Course, CourseError> {
         match self {
-            Self::Maze(file) => Course::for_body(name, file, body),
+            Self::Maze(file) => {
+                let mut file = file.clone();
+                file.corridor_width.get_or_insert(usual_width);
+                Course::for_body(name, &file, body)
+            }
             Self::Free(free) => {
                 let width = free.corridor_width.unwrap_or(CORRIDOR_WIDTH);
                 Course::in_free_world(name, free.world.clone(), width, body)

@@ -13,7 +13,7 @@ use tolman_systems::diktiometry::LandmarkSpot;
 use tolman_systems::{FileError, MapFiles, Origin};
 
 const FILES: MapFiles = MapFiles {
-    system: "diktiometry",
+    system: "diktiometry-better",
 };
 
 /// Contents of a survey's file: JSON, read back bit for bit. It holds the world and the robot's

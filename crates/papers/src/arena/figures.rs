@@ -4,7 +4,7 @@ use tolman_draw::{Axis, Chart, Figure, Hatching, HeatMap, Line, LinePoint, Serie
 use tolman_experiment::{BoxError, Record, Run};
 
 use super::records::{HomeRun, LearnRun, LocateRun, SizeRun};
-use super::rows::{ALL, SIZED, SIZES, contestants, row_name, size_name};
+use super::rows::{ALL, SIZES, contestants, row_name, size_name, sized};
 use super::worlds::ArenaWorld;
 use super::{ArenaTask, SIZE_TABLE, TABLES};
 
@@ -39,7 +39,7 @@ fn heat_map(
         if ends.iter().all(Vec::is_empty) {
             continue;
         }
-        systems.push(contestant.name().to_owned());
+        systems.push(contestant.title().to_owned());
         values.push(
             ends.iter()
                 .map(|of| 100.0 * share(of, End::Right))
@@ -130,7 +130,7 @@ fn by_size(runs: &[Run]) -> Result<Option<Figure>, BoxError> {
     let side = Axis::linear("cells a side").from_zero();
     let mut chart = Chart::new(side, Axis::log("time steps for each cell"));
     let mut has_lines = false;
-    for (series, contestant) in (0..).zip(SIZED) {
+    for (series, contestant) in (0..).zip(sized()) {
         let mut points = Vec::new();
         for side in SIZES {
             let of_row =
@@ -142,7 +142,7 @@ fn by_size(runs: &[Run]) -> Result<Option<Figure>, BoxError> {
         }
         if !points.is_empty() {
             has_lines = true;
-            chart.line(Line::new(contestant.name(), Series(series), points));
+            chart.line(Line::new(contestant.title(), Series(series), points));
         }
     }
     let drawing = chart.drawing("Time steps for each cell against the size of braided worlds.");

@@ -11,7 +11,8 @@ mod worlds;
 
 use std::sync::Mutex;
 
-use tolman_arena::contest::{Condition, Contest, ContestRobot, Moment, Schooling};
+use tolman_arena::contest::{Condition, Contest, Moment};
+use tolman_arena::registry::{RobotEntry, Schooling};
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Record, Run, Table,
@@ -44,14 +45,17 @@ enum ArenaTask {
     Locate,
 }
 
-/// The tables: name, task and robot.
-const TABLES: [(&str, ArenaTask, ContestRobot); 6] = [
-    ("learn", ArenaTask::Learn, ContestRobot::Own),
-    ("home", ArenaTask::Home, ContestRobot::Own),
-    ("locate", ArenaTask::Locate, ContestRobot::Own),
-    ("learn, Pioneer", ArenaTask::Learn, ContestRobot::Pioneer),
-    ("home, Pioneer", ArenaTask::Home, ContestRobot::Pioneer),
-    ("locate, Pioneer", ArenaTask::Locate, ContestRobot::Pioneer),
+/// The laser Pioneer, on which all that can are compared.
+const PIONEER: Option<RobotEntry> = Some(RobotEntry::LASER_PIONEER);
+
+/// The tables: name, task, and the robot if it is not the system's own.
+const TABLES: [(&str, ArenaTask, Option<RobotEntry>); 6] = [
+    ("learn", ArenaTask::Learn, None),
+    ("home", ArenaTask::Home, None),
+    ("locate", ArenaTask::Locate, None),
+    ("learn, Pioneer", ArenaTask::Learn, PIONEER),
+    ("home, Pioneer", ArenaTask::Home, PIONEER),
+    ("locate, Pioneer", ArenaTask::Locate, PIONEER),
 ];
 
 /// Name of the table of cost by size.
@@ -130,7 +134,7 @@ impl Procedure for Arena {
         let row = RowName::read(job.row)?;
         let (robot, contestant, world, number) = self.contest_of(&row, robot, job.run).ok()?;
         Some(format!(
-            "{contestant}, {robot:?}, in drawing {number} of world {world}"
+            "{contestant}, {robot}, in drawing {number} of world {world}"
         ))
     }
 
@@ -145,7 +149,7 @@ impl Procedure for Arena {
     fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, BoxError> {
         let row = RowName::read(job.row).ok_or_else(|| no_row(job))?;
         let robot = TABLES.into_iter().find(|(name, ..)| *name == job.table);
-        let robot = robot.map_or(ContestRobot::Own, |(_, _, robot)| robot);
+        let robot = robot.and_then(|(_, _, robot)| robot);
         let (world, condition) = match job.table {
             SIZE_TABLE => (
                 rows::sized_world(self.seed, &row, job.run)?,
@@ -169,10 +173,7 @@ impl Procedure for Arena {
                 }
                 (Moment::PutDown, Some(film)) => film.lifted(outing),
                 (_, Some(film)) => film.see(outing),
-                (_, none) => {
-                    let laid = row.contestant.world_from_map(outing.path()[0]);
-                    *none = Some(Film::laid_at(outing, laid));
-                }
+                (_, none) => *none = Some(Film::new(outing)),
             }
         })?;
         Ok(replay.map(|replay| replay.fact("seed", world.seed.to_string())))

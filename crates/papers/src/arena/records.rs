@@ -1,4 +1,5 @@
-use tolman_arena::contest::{Claim, ContestRecord, ContestRobot, LocateOutcome, Located};
+use tolman_arena::contest::{Claim, ContestRecord, LocateOutcome, Located};
+use tolman_arena::registry::RobotEntry;
 use tolman_arena::run::TaskEnd;
 use tolman_experiment::{BoxError, Metric, Run, Table, record};
 use tolman_maze::Maze;
@@ -361,7 +362,7 @@ pub(super) fn sizes(name: &str) -> Table {
 }
 
 /// Returns the note that explains a table.
-pub(super) fn note(task: ArenaTask, robot: ContestRobot) -> String {
+pub(super) fn note(task: ArenaTask, robot: Option<RobotEntry>) -> String {
     let worlds = "Small and middle worlds in turn, the same for all rows. GNG-SLAM Better takes seconds in each, \
      so it has one of each kind and none on the laser Pioneer, unless `--runs` asks for more. Worlds \
      in which a system abstained stay in the denominator.";
@@ -369,10 +370,10 @@ pub(super) fn note(task: ArenaTask, robot: ContestRobot) -> String {
      start and goal. MSLST does not claim that a map is whole, and counts as undecided. A micromouse \
      is told the grid, its start and the goal.";
     let robots = match robot {
-        ContestRobot::Own => {
+        None => {
             "Each on its paper's robot: CPM on the e-puck, the diktiometry on the Pioneer with a camera among walls of eight colours, all others on the laser Pioneer."
         }
-        ContestRobot::Pioneer => {
+        Some(_) => {
             "All on the laser Pioneer with compass and encoders. For the diktiometry, which tells openings apart by the walls between them, walls are thick."
         }
     };

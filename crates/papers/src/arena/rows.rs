@@ -5,7 +5,8 @@ use std::sync::{Mutex, PoisonError};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tolman_arena::cast::Agent;
-use tolman_arena::contest::{Condition, Contest, ContestRecord, ContestRobot, Contestant};
+use tolman_arena::contest::{Condition, Contest, ContestRecord};
+use tolman_arena::registry::{Registry, RobotEntry, SystemEntry};
 use tolman_experiment::{BoxError, Fields, Options, Record, Row, run_seed};
 use tolman_maze::Braided;
 
@@ -27,43 +28,43 @@ const BETWEEN: &str = " · ";
 
 /// The parts of a row's name.
 pub(super) struct RowName<'a> {
-    pub(super) contestant: Contestant,
+    pub(super) contestant: &'static dyn SystemEntry,
     pub(super) world: &'a str,
 }
 
 impl<'a> RowName<'a> {
     pub(super) fn read(row: &'a str) -> Option<Self> {
         let (system, world) = row.split_once(BETWEEN)?;
-        let contestant = Contestant::named(system)?;
+        let contestant = Registry::current().system(system)?;
         Some(Self { contestant, world })
     }
 }
 
-pub(super) fn row_name(contestant: Contestant, world: &str) -> String {
-    format!("{}{BETWEEN}{world}", contestant.name())
+pub(super) fn row_name(contestant: &dyn SystemEntry, world: &str) -> String {
+    format!("{}{BETWEEN}{world}", contestant.title())
 }
 
 /// Returns the contestants that have rows in a table. Baselines learn no map, and only one of them
 /// localizes.
-pub(super) fn contestants(task: ArenaTask) -> impl Iterator<Item = Contestant> {
-    let all = Contestant::ALL.into_iter();
-    all.filter(move |contestant| match contestant {
-        Contestant::Baseline(Agent::UnlocalizedOracle) => task != ArenaTask::Learn,
-        Contestant::Baseline(_) => task == ArenaTask::Home,
-        _ => true,
+pub(super) fn contestants(task: ArenaTask) -> impl Iterator<Item = &'static dyn SystemEntry> {
+    let all = Registry::current().contestants();
+    all.filter(move |contestant| match contestant.baseline() {
+        Some(Agent::UnlocalizedOracle) => task != ArenaTask::Learn,
+        Some(_) => task == ArenaTask::Home,
+        None => true,
     })
 }
 
 /// Returns the rows of a table: each contestant in each world, and in all worlds.
 pub(super) fn of(
     task: ArenaTask,
-    robot: ContestRobot,
+    robot: Option<RobotEntry>,
     worlds: &[ArenaWorld],
     options: &Options,
 ) -> Vec<Row> {
     let slow = match robot {
-        ContestRobot::Own => SLOW_RUNS,
-        ContestRobot::Pioneer => NO_RUNS,
+        None => SLOW_RUNS,
+        Some(_) => NO_RUNS,
     };
     let mut rows = Vec::new();
     for contestant in contestants(task) {
@@ -80,7 +81,7 @@ pub(super) fn of(
 pub(super) type Held = BTreeMap<HeldKey, Shared>;
 
 /// Key of a contest: robot, contestant, world and drawing.
-pub(super) type HeldKey = (ContestRobot, &'static str, usize, u32);
+pub(super) type HeldKey = (&'static str, &'static str, usize, u32);
 
 /// A contest that the first caller plays while the others wait.
 type Shared = Arc<Mutex<Option<Arc<ContestRecord>>>>;
@@ -90,27 +91,28 @@ impl Arena {
     pub(super) fn contest_of(
         &self,
         row: &RowName<'_>,
-        robot: ContestRobot,
+        robot: Option<RobotEntry>,
         run: u32,
     ) -> Result<HeldKey, BoxError> {
         let (world, number) = self.place(row, run)?;
         // The baselines drive the laser Pioneer in all tables.
-        let robot = match row.contestant {
-            Contestant::Baseline(_) => ContestRobot::Pioneer,
-            _ => robot,
+        let robot = match (row.contestant.baseline(), robot) {
+            (None, None) => row.contestant.own_robot(),
+            (None, Some(robot)) => robot.name,
+            (Some(_), _) => RobotEntry::LASER_PIONEER.name,
         };
-        Ok((robot, row.contestant.name(), world, number))
+        Ok((robot, row.contestant.title(), world, number))
     }
 
     /// Returns the record of a row's contest. Each contest is held only once.
     pub(super) fn held(
         &self,
         row: &RowName<'_>,
-        robot: ContestRobot,
+        robot: Option<RobotEntry>,
         run: u32,
     ) -> Result<Arc<ContestRecord>, BoxError> {
         let key = self.contest_of(row, robot, run)?;
-        let (robot, _, world, number) = key;
+        let (_, _, world, number) = key;
         let shared = {
             let mut held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
             Arc::clone(held.entry(key).or_default())
@@ -132,7 +134,7 @@ impl Arena {
         let drawn = self.world_of_condition(run)?;
         let contest = Contest {
             condition: condition_of(row)?,
-            ..drawn.contest(row.contestant, ContestRobot::Own)
+            ..drawn.contest(row.contestant, None)
         };
         let record = contest.play(&self.schooling, |_, _| {})?;
         Ok(ConditionRun::of(&record).fields()?)
@@ -148,7 +150,7 @@ impl Arena {
     /// Plays a run of the table of sizes.
     pub(super) fn sized(&self, row: &RowName<'_>, run: u32) -> Result<Fields, BoxError> {
         let drawn = sized_world(self.seed, row, run)?;
-        let contest = drawn.contest(row.contestant, ContestRobot::Own);
+        let contest = drawn.contest(row.contestant, None);
         let record = contest.play(&self.schooling, |_, _| {})?;
         Ok(SizeRun::of(&record, &drawn.maze).fields()?)
     }
@@ -156,9 +158,9 @@ impl Arena {
 
 /// Returns the number of worlds of each kind for a contestant: the caller's, or else the
 /// experiment's own. It is `slow` for a contestant that takes seconds in each.
-fn runs_of(contestant: Contestant, options: &Options, slow: u32) -> u32 {
-    match contestant {
-        Contestant::GngSlamBetter => options.runs_else(slow, slow),
+fn runs_of(contestant: &dyn SystemEntry, options: &Options, slow: u32) -> u32 {
+    match contestant.name() {
+        "gng-slam-better" => options.runs_else(slow, slow),
         _ => options.runs_of(&ENTRY),
     }
 }
@@ -176,13 +178,14 @@ pub(super) fn of_conditions(options: &Options) -> Vec<Row> {
 }
 
 /// Systems in the table of sizes, and the sides of its worlds, cells.
-pub(super) const SIZED: [Contestant; 4] = [
-    Contestant::Mslst,
-    Contestant::CpmBetter,
-    Contestant::DiktiometryBetter,
-    Contestant::Micromouse,
-];
+const SIZED: [&str; 4] = ["mslst", "cpm-better", "diktiometry-better", "micromouse"];
 pub(super) const SIZES: [u16; 6] = [5, 8, 12, 16, 24, 40];
+
+/// Returns the systems in the table of sizes.
+pub(super) fn sized() -> impl Iterator<Item = &'static dyn SystemEntry> {
+    let names = SIZED.into_iter();
+    names.filter_map(|name| Registry::current().system(name))
+}
 
 /// Maximum side if the table is not asked for by name. Larger worlds take minutes each.
 const QUICK_SIDE: u16 = 16;
@@ -191,7 +194,7 @@ const QUICK_SIDE: u16 = 16;
 pub(super) fn of_sizes(options: &Options) -> Vec<Row> {
     let is_named = options.tables.iter().any(|name| name == SIZE_TABLE);
     let mut rows = Vec::new();
-    for contestant in SIZED {
+    for contestant in sized() {
         for side in SIZES {
             let is_filled = is_named || side <= QUICK_SIDE;
             let runs = if is_filled {

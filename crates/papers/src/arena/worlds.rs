@@ -2,8 +2,9 @@ use std::path::{Path, PathBuf};
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use tolman_arena::contest::{Condition, Contest, ContestRobot, Contestant};
+use tolman_arena::contest::{Condition, Contest};
 use tolman_arena::family::{Family, FamilySize};
+use tolman_arena::registry::{Registry, RobotEntry, SystemEntry};
 use tolman_experiment::files::files_in;
 use tolman_experiment::{BoxError, run_seed};
 use tolman_maze::Maze;
@@ -40,7 +41,11 @@ pub struct DrawnWorld {
 impl DrawnWorld {
     /// Returns the contest of a contestant in it.
     #[must_use]
-    pub fn contest(&self, contestant: Contestant, robot: ContestRobot) -> Contest<'_> {
+    pub fn contest(
+        &self,
+        contestant: &'static dyn SystemEntry,
+        robot: Option<RobotEntry>,
+    ) -> Contest<'_> {
         Contest {
             contestant,
             robot,
@@ -55,10 +60,11 @@ impl DrawnWorld {
 }
 
 impl ArenaWorld {
-    /// Returns the families of the arena.
+    /// Returns the families of the arena, then those that others have registered.
     #[must_use]
     pub fn families() -> Vec<Self> {
-        Family::ARENA.map(Self::Family).into()
+        let families = Registry::current().arena_families();
+        families.map(Self::Family).collect()
     }
 
     /// Returns the mazes of files, and of all files in folders.

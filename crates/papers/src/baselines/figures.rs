@@ -54,7 +54,7 @@ fn plan(
     middle: &Run,
     series: Series,
 ) -> Result<Figure, BoxError> {
-    let mut plan = crate::plan_of_course(&venue.course, WIDTH);
+    let mut plan = tolman_arena::drawing::plan_of_course(&venue.course, WIDTH);
     for run in runs.iter().take(SHOWN).filter(|run| run.run != middle.run) {
         plan.faint_trajectory(&way(experiment, run)?, series);
     }

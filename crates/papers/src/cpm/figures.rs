@@ -4,10 +4,10 @@
 use tolman_geom::Point;
 
 use super::Cpm;
-use super::drawing;
 use super::trials::{BETTER, FIGURE_9, TrialRun};
 use tolman_arena::course::Course;
 use tolman_arena::cpm::TrialRecord;
+use tolman_arena::drawing::cpm as drawing;
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
 use tolman_experiment::{BoxError, FieldsError, Run};
 

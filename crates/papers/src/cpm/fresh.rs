@@ -2,10 +2,9 @@
 
 use rand::{Rng, RngExt};
 use serde::Serialize;
-use tolman_arena::contest::{
-    Claim, Condition, Contest, ContestRobot, Contestant, LearnRecord, Moment, Schooling,
-};
+use tolman_arena::contest::{Claim, Condition, Contest, LearnRecord, Moment};
 use tolman_arena::family::{Family, FamilySize};
+use tolman_arena::registry::{Registry, Schooling};
 use tolman_arena::run::TaskEnd;
 use tolman_experiment::{BoxError, Fields, Metric, Options, Record, Row, Table, record, require};
 use tolman_maze::Maze;
@@ -52,7 +51,7 @@ impl FreshRow {
             row: family.to_owned(),
             families: vec![family],
             wheels: 0,
-            contestant: Contestant::CpmBetter.name(),
+            contestant: "cpm-better",
         }
     }
 
@@ -70,7 +69,7 @@ impl FreshRow {
     fn papers_system(self) -> Self {
         Self {
             row: format!("{} (paper's system)", self.row),
-            contestant: Contestant::Cpm.name(),
+            contestant: "cpm",
             ..self
         }
     }
@@ -226,10 +225,12 @@ impl FreshRow {
     /// Lets the robot explore a new world and returns the record.
     pub(super) fn run(&self, schooling: &Schooling, seed: u64) -> Result<Fields, BoxError> {
         let maze = self.draw(seed)?;
-        let contestant = Contestant::named(self.contestant).ok_or("there is no such system")?;
+        let contestant = Registry::current()
+            .system(self.contestant)
+            .ok_or("there is no such system")?;
         let contest = Contest {
             contestant,
-            robot: ContestRobot::Own,
+            robot: None,
             maze: &maze,
             name: &self.row,
             condition: self.condition(),

@@ -7,7 +7,6 @@
 
 mod detector;
 mod dictionary;
-pub mod drawing;
 mod episodes;
 mod explored;
 mod figures;
@@ -24,10 +23,10 @@ use alloc::collections::BTreeMap;
 use serde::Serialize;
 use tolman_sim::robots::EpuckConfig;
 
-use tolman_arena::contest::Schooling;
 use tolman_arena::course::Course;
 use tolman_arena::cpm::{TrialRecord, epuck, learn};
 use tolman_arena::diktiometry::EpuckSurveyConfig;
+use tolman_arena::registry::Schooling;
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run, Table, Tour,

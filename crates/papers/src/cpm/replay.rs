@@ -7,10 +7,10 @@ use tolman_maps::cpm::{CpMap, FragmentId, JunctionId, MapUpdate, Sign};
 use tolman_robot::Body;
 use tolman_robot::epuck::BODY_RADIUS;
 
-use super::drawing::{fragment_name, junction_name, middle_of};
 use super::real::Real;
 use tolman_arena::course::Course;
 use tolman_arena::cpm::{CpmTrial, Layout, SimulatedEpuck, slow_epuck};
+use tolman_arena::drawing::cpm::{fragment_name, junction_name, middle_of};
 use tolman_experiment::{BoxError, Job};
 use tolman_replay::{
     Fact, MapEdge, MapGrowth, MapNode, Mark, Marks, Notes, Replay, RobotTrack, Scenery, TimeSeries,

@@ -2,10 +2,10 @@
 //! like figures 3(a) and 4.
 
 use super::SurveyRun;
-use super::drawing::map_over_world;
 use super::settings::{Setting, Subject, Trial};
 use crate::plan::mean_with_quartiles;
 use tolman_arena::diktiometry::{Survey, WINDOW};
+use tolman_arena::drawing::diktiometry::map_over_world;
 use tolman_draw::{Axis, Chart, Figure, Line, Series};
 use tolman_experiment::{BoxError, Record, Run};
 

@@ -2,7 +2,6 @@
 //! walks through an office learns its map.
 
 mod ablations;
-pub mod drawing;
 mod figures;
 mod firings;
 mod fresh;

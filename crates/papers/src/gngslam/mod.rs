@@ -4,7 +4,6 @@
 //! the system that corrects its pose while it learns.
 
 mod annealing;
-pub mod drawing;
 mod drawings;
 mod driven;
 mod figures;

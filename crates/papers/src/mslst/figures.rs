@@ -5,9 +5,11 @@ use tolman_maps::mslst_graph::Node;
 
 use super::Mslst;
 use super::contest::Contest;
-use super::drawing::{self, SHOWN_ACTIONS};
+use crate::plan::model_scan;
 use crate::venue::MazeRun;
-use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
+use tolman_arena::drawing::mslst::{SHOWN_ACTIONS, graph_over_maze};
+use tolman_arena::drawing::plan_of_course;
+use tolman_draw::{Axis, Chart, Drawing, Figure, Line, LinePoint, Series, Tiles};
 use tolman_experiment::{BoxError, Run};
 use tolman_stats::wilson_interval;
 use tolman_systems::mslst::Learned;
@@ -49,7 +51,7 @@ pub(super) fn of(experiment: &Mslst, runs: &[Run]) -> Result<Vec<Figure>, BoxErr
 /// Returns the paper's figure 3: every model scan, with north up, and its nodes.
 fn states(learned: &Learned, at: &str, here: &str) -> Figure {
     let title = format!("{here}: states of map 0");
-    Figure::new(format!("states-{at}"), title, drawing::states(learned)).caption(
+    Figure::new(format!("states-{at}"), title, model_scans(learned)).caption(
         "Model scans of the equilibrium GNG, north upwards, each with the nodes that bear it.",
     )
 }
@@ -63,7 +65,7 @@ fn graph(contest: &Contest, learned: &Learned, at: &str, here: &str) -> Figure {
     Figure::new(
         format!("graph-{at}"),
         format!("{here}: graph of map 0"),
-        drawing::graph_over_maze(&contest.venue.course, learned),
+        graph_over_maze(&contest.venue.course, learned),
     )
     .caption(format!(
         "The nodes of the first {SHOWN_ACTIONS} actions at the robot's true positions when they were \
@@ -125,7 +127,7 @@ fn between_maps(contest: &Contest, runs: &[Run], number: u32) -> Result<Option<F
 
 /// Returns the ways of the first runs.
 fn ways(contest: &Contest, runs: &[&Run], at: &str, here: &str) -> Result<Figure, BoxError> {
-    let mut plan = crate::plan_of_course(&contest.venue.course, WIDTH);
+    let mut plan = plan_of_course(&contest.venue.course, WIDTH);
     for run in runs {
         let (episode, _) = contest.episode(&run.job())?;
         let positions: Vec<Point> = episode.path.iter().map(|pose| pose.position).collect();
@@ -138,4 +140,17 @@ fn ways(contest: &Contest, runs: &[&Run], at: &str, here: &str) -> Result<Figure
         _ => format!("The ways of {} runs, each by another map.", runs.len()),
     };
     Ok(Figure::new(format!("ways-{at}"), here, drawing).caption(caption))
+}
+
+/// Returns the paper's figure 3: every model scan, with north up, and the number of its nodes.
+fn model_scans(learned: &Learned) -> Drawing {
+    let mut tiles = Tiles::new(6);
+    for (state, model) in (0_u32..).zip(learned.map.states.models()) {
+        let nodes = learned.map.graph.nodes().iter();
+        let count = nodes.filter(|node| node.state == state).count();
+        let drawing = model_scan(model.iter().copied(), 96.0, format!("Model scan {state}."));
+        tiles.tile(format!("{state}: {count} nodes"), drawing);
+    }
+    let count = learned.map.states.models().len();
+    tiles.drawing(format!("The {count} states of a map."))
 }

@@ -137,7 +137,7 @@ impl Hardest {
     }
 
     fn ways(&self, venue: &Venue, run: &Run) -> Result<Figure, BoxError> {
-        let mut plan = crate::plan_of_course(&venue.course, WIDTH);
+        let mut plan = tolman_arena::drawing::plan_of_course(&venue.course, WIDTH);
         let (mut detours, mut longest) = (0_u32, 0.0_f64);
         self.drive(venue, run.seed, |episode, by_oracle| {
             let times = f64::from(episode.steps) / f64::from(by_oracle.steps.max(1));

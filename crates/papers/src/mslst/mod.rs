@@ -8,7 +8,6 @@
 
 mod condition;
 mod contest;
-pub mod drawing;
 mod driven;
 mod entrant;
 mod families;

@@ -3,7 +3,7 @@
 use tolman_draw::Figure;
 use tolman_experiment::{BoxError, Run};
 
-use super::{LogSystem, MapPicture, Real, small};
+use super::{LogMapper, MapPicture, Real, small};
 
 /// Returns a picture of the small log's map.
 pub(super) fn of(real: &Real, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
@@ -11,7 +11,7 @@ pub(super) fn of(real: &Real, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
         return Ok(Vec::new());
     }
     let log = &real.small.log;
-    let found = log.map(LogSystem::ScanMatching, &log.odometry(), |_| {})?;
+    let found = log.map(LogMapper::ScanMatching, &log.odometry(), |_| {})?;
     let drawing = MapPicture::of(log, &found.poses).drawing(720.0)?;
     let figure = Figure::new(
         "small-log",

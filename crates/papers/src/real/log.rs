@@ -2,6 +2,7 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use core::error::Error;
 use std::path::Path;
 
+use tolman_arena::registry::LogMapper;
 use tolman_experiment::BoxError;
 #[cfg(feature = "mcap")]
 use tolman_formats::RosBag;
@@ -24,58 +25,6 @@ pub struct RobotLog {
     pub scans: Vec<LogScan>,
     /// Report on reading the file.
     pub report: LogReport,
-}
-
-/// System that estimates the trajectory of a robot from its log.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LogSystem {
-    /// The odometry alone.
-    Odometry,
-    /// Scans matched to earlier ones.
-    Matching,
-    /// Scans matched to earlier ones, and to places seen before.
-    ScanMatching,
-    /// Scans matched to earlier ones; junctions, bends, dead ends and rooms recognized.
-    Places,
-    /// The same places, mapped by the diktiometry.
-    Diktiometry,
-    /// The same places, mapped by CPM.
-    Cpm,
-    /// The same places, mapped by the place graph of GNG-SLAM.
-    PlaceGraph,
-}
-
-impl LogSystem {
-    /// All systems that map a log.
-    pub const ALL: [Self; 7] = [
-        Self::Odometry,
-        Self::Matching,
-        Self::ScanMatching,
-        Self::Places,
-        Self::Diktiometry,
-        Self::Cpm,
-        Self::PlaceGraph,
-    ];
-
-    /// Returns the name as in `tolman map --log`.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Odometry => "odometry",
-            Self::Matching => "matching",
-            Self::ScanMatching => "scan-matching",
-            Self::Places => "places",
-            Self::Diktiometry => "diktiometry",
-            Self::Cpm => "cpm",
-            Self::PlaceGraph => "gngslam",
-        }
-    }
-
-    /// Returns the system called `name`; `None` if there is none.
-    #[must_use]
-    pub fn named(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|system| system.name() == name)
-    }
 }
 
 /// Result of mapping a log.
@@ -188,14 +137,14 @@ impl RobotLog {
     /// If a scan is invalid.
     pub fn map(
         &self,
-        system: LogSystem,
+        system: LogMapper,
         odometry: &[Pose],
         see: impl FnMut(usize),
     ) -> Result<MappedLog, BoxError> {
         let corridors = PlacesConfig::indoor().corridor_width;
         let mut config = ScanMatchingConfig::indoor();
         let mut mapper = match system {
-            LogSystem::Odometry => {
+            LogMapper::Odometry => {
                 return Ok(MappedLog {
                     poses: odometry.to_vec(),
                     closures: 0,
@@ -207,7 +156,7 @@ impl RobotLog {
                     certainty: None,
                 });
             }
-            LogSystem::Places => {
+            LogMapper::Places => {
                 let mut mapper = PlacesMapper::new(PlacesConfig::indoor())?;
                 self.show(&mut mapper, odometry, see)?;
                 mapper.finish()?;
@@ -215,18 +164,18 @@ impl RobotLog {
                 let visits = visits.map(|site| (site.keyframe, Some(site.id)));
                 return Ok(MappedLog::of(mapper.matching()).with_places(mapper.map(), visits));
             }
-            LogSystem::Diktiometry => {
+            LogMapper::Diktiometry => {
                 return self.map_sites(DiktiometryOfSites::indoor(corridors), odometry, see);
             }
-            LogSystem::Cpm => return self.map_sites(CpmOfSites::indoor(corridors), odometry, see),
-            LogSystem::PlaceGraph => {
+            LogMapper::Cpm => return self.map_sites(CpmOfSites::indoor(corridors), odometry, see),
+            LogMapper::PlaceGraph => {
                 return self.map_sites(PlaceGraphOfSites::indoor(), odometry, see);
             }
-            LogSystem::Matching => {
+            LogMapper::Matching => {
                 config.closures = None;
                 ScanMatching::new(config)
             }
-            LogSystem::ScanMatching => ScanMatching::new(config),
+            LogMapper::ScanMatching => ScanMatching::new(config),
         };
         self.show(&mut mapper, odometry, see)?;
         mapper.finish()?;

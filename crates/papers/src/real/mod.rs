@@ -31,7 +31,8 @@ use crate::quantizers::sonar;
 
 pub use drawing::{MapPicture, ros_map};
 pub use graph::{GraphFile, GraphFileError};
-pub use log::{FoundClosure, LogSystem, MappedLog, RobotLog};
+pub use log::{FoundClosure, MappedLog, RobotLog};
+pub use tolman_arena::registry::LogMapper;
 
 /// Entry in the catalogue.
 pub(super) const ENTRY: Entry = Entry {

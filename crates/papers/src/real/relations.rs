@@ -9,7 +9,7 @@ use tolman_formats::ReadRelations;
 use tolman_robot::Trajectory;
 
 use super::trajectories::{Wear, worse};
-use super::{FoundClosure, LogSystem, MappedLog, RobotLog};
+use super::{FoundClosure, LogMapper, MappedLog, RobotLog};
 use crate::data;
 
 /// Name of the table.
@@ -30,16 +30,16 @@ const ELSEWHERE_M: f64 = 4.0;
 /// Row whose wheels have added errors.
 const MADE_WORSE: &str = "intel dense, wheels made worse";
 
-pub(super) const ROWS: [(&str, Option<LogSystem>); 9] = [
-    ("intel raw", Some(LogSystem::Odometry)),
+pub(super) const ROWS: [(&str, Option<LogMapper>); 9] = [
+    ("intel raw", Some(LogMapper::Odometry)),
     ("intel published", None),
-    ("intel matching", Some(LogSystem::Matching)),
-    ("intel places", Some(LogSystem::Places)),
-    ("intel diktiometry", Some(LogSystem::Diktiometry)),
-    ("intel cpm", Some(LogSystem::Cpm)),
-    ("intel place graph", Some(LogSystem::PlaceGraph)),
-    ("intel dense", Some(LogSystem::ScanMatching)),
-    (MADE_WORSE, Some(LogSystem::ScanMatching)),
+    ("intel matching", Some(LogMapper::Matching)),
+    ("intel places", Some(LogMapper::Places)),
+    ("intel diktiometry", Some(LogMapper::Diktiometry)),
+    ("intel cpm", Some(LogMapper::Cpm)),
+    ("intel place graph", Some(LogMapper::PlaceGraph)),
+    ("intel dense", Some(LogMapper::ScanMatching)),
+    (MADE_WORSE, Some(LogMapper::ScanMatching)),
 ];
 
 /// The log, read when it is first needed.
@@ -95,7 +95,7 @@ record! {
 
 pub(super) fn table() -> Table {
     let missing = missing();
-    let row = |(name, _): (&str, Option<LogSystem>)| match &missing {
+    let row = |(name, _): (&str, Option<LogMapper>)| match &missing {
         Some(missing) => Row::new(name).missing(missing),
         None if name == MADE_WORSE => Row::new(name),
         None => Row::new(name).run_each(1),
@@ -134,7 +134,7 @@ impl Intel {
             return Ok(dense);
         }
         let log = self.log()?;
-        let dense = log.map(LogSystem::ScanMatching, &log.odometry(), |_| {})?;
+        let dense = log.map(LogMapper::ScanMatching, &log.odometry(), |_| {})?;
         Ok(self.dense.get_or_init(|| dense))
     }
 
@@ -148,7 +148,7 @@ impl Intel {
             for scan in &mut log.scans {
                 scan.time += PUBLISHED_TIMES;
             }
-            let mapped = log.map(LogSystem::Odometry, &log.odometry(), |_| {})?;
+            let mapped = log.map(LogMapper::Odometry, &log.odometry(), |_| {})?;
             return Ok((log.trajectory(&mapped.poses), mapped));
         };
         let log = self.log()?;
@@ -157,7 +157,7 @@ impl Intel {
                 let odometry = worse(&log.odometry(), Wear::OF_RAW, job.seed);
                 log.map(*system, &odometry, |_| {})?
             }
-            (_, LogSystem::ScanMatching) => self.dense()?.clone(),
+            (_, LogMapper::ScanMatching) => self.dense()?.clone(),
             _ => log.map(*system, &log.odometry(), |_| {})?,
         };
         Ok((log.trajectory(&mapped.poses), mapped))

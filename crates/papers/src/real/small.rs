@@ -7,21 +7,21 @@ use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
 use tolman_geom::Pose;
 
 use super::trajectories::aligned;
-use super::{LogSystem, RobotLog};
+use super::{LogMapper, RobotLog};
 
 /// Name of the table.
 pub(super) const NAME: &str = "small log";
 
 const PACKED: &[u8] = include_bytes!("../../logs/office.clf.gz");
 
-const ROWS: [(&str, LogSystem); 7] = [
-    ("odometry", LogSystem::Odometry),
-    ("matching", LogSystem::Matching),
-    ("places", LogSystem::Places),
-    ("diktiometry", LogSystem::Diktiometry),
-    ("cpm", LogSystem::Cpm),
-    ("place graph", LogSystem::PlaceGraph),
-    ("dense", LogSystem::ScanMatching),
+const ROWS: [(&str, LogMapper); 7] = [
+    ("odometry", LogMapper::Odometry),
+    ("matching", LogMapper::Matching),
+    ("places", LogMapper::Places),
+    ("diktiometry", LogMapper::Diktiometry),
+    ("cpm", LogMapper::Cpm),
+    ("place graph", LogMapper::PlaceGraph),
+    ("dense", LogMapper::ScanMatching),
 ];
 
 /// The small log, in which the true pose of each scan is noted.

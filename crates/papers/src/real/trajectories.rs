@@ -10,7 +10,7 @@ use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
 use tolman_geom::{Heading, Point, Pose};
 
 use super::relations::file;
-use super::{LogSystem, RobotLog};
+use super::{LogMapper, RobotLog};
 use crate::data;
 
 /// Name of the table.
@@ -145,8 +145,8 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
         true => log.odometry(),
         false => worse(&log.odometry(), Wear::OF_CORRECTED, job.seed),
     };
-    let matching = log.map(LogSystem::Matching, &odometry, |_| {})?;
-    let dense = log.map(LogSystem::ScanMatching, &odometry, |_| {})?;
+    let matching = log.map(LogMapper::Matching, &odometry, |_| {})?;
+    let dense = log.map(LogMapper::ScanMatching, &odometry, |_| {})?;
     let score = aligned(&dense.poses, &truth)?;
     let run = TrajectoryRun {
         rms_m: score.rms,

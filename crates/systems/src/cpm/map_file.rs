@@ -7,9 +7,13 @@ use tolman_maps::cpm::{self, CpMap};
 
 use super::common_patterns::CommonPatterns;
 use super::mode::Mode;
-use crate::{FileError, MapFiles, Origin};
+use crate::{FileError, MapFiles, Origin, origin_of};
 
-const FILES: MapFiles = MapFiles { system: "cpm" };
+/// The files of the paper's system, and of the better one.
+const PAPERS: MapFiles = MapFiles { system: "cpm" };
+const BETTER: MapFiles = MapFiles {
+    system: "cpm-better",
+};
 
 /// Contents of a learned map's file, with the patterns that the map uses. It is JSON and reads back
 /// bit for bit.
@@ -49,6 +53,19 @@ struct Body {
 }
 
 impl MapFile {
+    /// Returns the name of the system that learned the map.
+    #[must_use]
+    pub const fn system(&self) -> &'static str {
+        self.files().system
+    }
+
+    const fn files(&self) -> MapFiles {
+        match self.mode {
+            Mode::Paper(_) => PAPERS,
+            Mode::Reckoned(_) | Mode::Unlearned(_) => BETTER,
+        }
+    }
+
     /// Returns the text of the file, with a line end.
     ///
     /// # Errors
@@ -60,7 +77,7 @@ impl MapFile {
             clusters: self.patterns.cluster_count(),
             map: cpm::MapFile::of(&self.map, self.patterns.dictionary())?,
         };
-        Ok(FILES.write(&self.origin, &body)?)
+        Ok(self.files().write(&self.origin, &body)?)
     }
 
     /// Reads the text of a file.
@@ -68,7 +85,12 @@ impl MapFile {
     /// # Errors
     /// [`MapFileError`], with the place and the repair.
     pub fn from_json(text: &str) -> Result<Self, MapFileError> {
-        let (origin, body): (_, Body) = FILES.read(text)?;
+        let (system, _) = origin_of(text)?;
+        let files = match system == PAPERS.system {
+            true => PAPERS,
+            false => BETTER,
+        };
+        let (origin, body): (_, Body) = files.read(text)?;
         let dictionary = body.map.dictionary()?;
         let map = body.map.map(&dictionary)?;
         Ok(Self {

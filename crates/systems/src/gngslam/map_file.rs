@@ -9,7 +9,9 @@ use tolman_maps::place_graph::PlaceGraph;
 use super::{LandmarkSighting, OnlineSlamConfig};
 use crate::{FileError, MapFiles, Origin};
 
-const FILES: MapFiles = MapFiles { system: "gngslam" };
+const FILES: MapFiles = MapFiles {
+    system: "gng-slam-better",
+};
 
 /// Contents of a learned map's file: JSON, read back bit for bit, without the robot's pose.
 #[derive(Clone, Debug)]

@@ -9,23 +9,24 @@ use std::sync::OnceLock;
 use std::time::Instant;
 
 use anyhow::anyhow;
-use clap::builder::PossibleValue;
 use rayon::prelude::*;
 use serde::Serialize;
 use tolman_arena::contest::{
-    Claim, Condition, Contest, ContestError, ContestRecord, ContestRobot, Contestant, LearnRecord,
-    LocateOutcome, Located, Schooling,
+    Claim, Condition, Contest, ContestError, ContestRecord, LearnRecord, LocateOutcome, Located,
 };
+use tolman_arena::registry::{Registry, RobotEntry, Schooling, SystemEntry, slug};
 use tolman_experiment::choices;
 use tolman_papers::arena::{ArenaWorld, DrawnWorld};
 
 use super::{App, Failure, OrBadInput};
 
+/// A system or baseline of the arena.
+type Contestant = &'static dyn SystemEntry;
+
 /// Sends systems into worlds of every kind; judges their maps, and whether they reach the goal
 #[derive(clap::Args)]
 #[command(after_help = "\
-Systems: mslst, mslst-better, cpm, cpm-better, diktiometry, diktiometry-better, gng-slam, gng-slam-better, micromouse, wall-belief.
-Baselines, which only drive to the goal: random, avoid, wall-follow, oracle, unlocalized-oracle.
+`tolman systems` lists the systems, the baselines, which only drive to the goal, and the robots.
 `tolman maze generate --list` names the families. `tolman experiment arena` fills whole tables.
 
 Conditions: as-made, wheels-1, wheels-2, wheels-5 (each wheel is off by a constant of up to this many percent), compass-offset,
@@ -45,9 +46,9 @@ pub(super) struct Arguments {
     /// System to send, or `all`
     #[arg(long, value_name = "NAME", default_value = "all")]
     system: String,
-    /// Robot that the systems drive
+    /// Robot that carries the systems, or `own` for the one that each is made for
     #[arg(long, value_name = "NAME", default_value = "own")]
-    robot: Robot,
+    robot: String,
     /// Change in the robots and worlds; the conditions are listed below
     #[arg(long, value_name = "NAME", default_value = "as-made")]
     condition: String,
@@ -92,27 +93,6 @@ fn stopwatch() -> Duration {
     BEGAN.get_or_init(Instant::now).elapsed()
 }
 
-#[derive(Clone, Copy)]
-enum Robot {
-    /// The robot of the system's paper
-    Own,
-    LaserPioneer,
-}
-
-impl clap::ValueEnum for Robot {
-    fn value_variants<'a>() -> &'a [Self] {
-        &[Self::Own, Self::LaserPioneer]
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        Some(match self {
-            Self::Own => PossibleValue::new("own").help("The robot of the system's paper"),
-            Self::LaserPioneer => PossibleValue::new("laser-pioneer")
-                .help("The Pioneer with a laser, a compass and encoders"),
-        })
-    }
-}
-
 /// Result of a contest, for `--json`.
 #[derive(Serialize)]
 struct Line<'a> {
@@ -142,15 +122,15 @@ pub(super) fn carry_out(
     arguments: &Arguments,
     out: &mut dyn Write,
 ) -> Result<(), Failure> {
-    let robot = match arguments.robot {
-        Robot::Own => ContestRobot::Own,
-        Robot::LaserPioneer => ContestRobot::Pioneer,
+    let robot = match arguments.robot.as_str() {
+        "own" => None,
+        name => Some(app.robot(name)?),
     };
-    let contestants = contestants(&arguments.system)?;
+    let contestants = contestants(app, &arguments.system)?;
     if arguments.own_verdict {
         return verdicts::judge(arguments, &contestants, robot, &arguments.kinds(app)?, out);
     }
-    let condition = condition(&arguments.condition)?;
+    let condition = condition(app, &arguments.condition)?;
     let worlds = arguments.worlds(app)?;
     let jobs: Vec<(Contestant, &DrawnWorld)> = contestants
         .iter()
@@ -209,7 +189,7 @@ fn costs(
         writeln!(
             out,
             "{:18} {:>6} {:>12} {:>10} {:>13}",
-            contestant.name(),
+            contestant.title(),
             learned.len(),
             steps,
             ratio(1e6 * thinking.as_secs_f64(), steps as f64),
@@ -219,29 +199,25 @@ fn costs(
     Ok(())
 }
 
-fn contestants(name: &str) -> Result<Vec<Contestant>, Failure> {
+fn contestants(app: &App<'_>, name: &str) -> Result<Vec<Contestant>, Failure> {
     if name == "all" {
-        return Ok(Contestant::ALL.into());
+        return Ok(app.registry().contestants().collect());
     }
-    let named = Contestant::named(name).ok_or_else(|| {
-        let names = Contestant::ALL.map(|one| one.name().to_lowercase().replace(' ', "-"));
-        anyhow!(
-            "there is no system {name} in the arena; {}, all",
-            choices(name, names.iter().map(String::as_str))
-        )
-    });
-    Ok(vec![named.or_bad_input()?])
+    let competes = |system: &dyn SystemEntry| system.learns() || system.baseline().is_some();
+    Ok(vec![app.system(name, competes)?])
 }
 
-fn condition(name: &str) -> Result<Condition, Failure> {
-    let named = Condition::named(name).ok_or_else(|| {
-        let names = Condition::ALL.map(|one| one.name().replace(' ', "-"));
-        anyhow!(
+fn condition(app: &App<'_>, name: &str) -> Result<Condition, Failure> {
+    let known = &app.registry().conditions;
+    let mut conditions = known.iter();
+    let named = conditions.find(|condition| slug(&condition.name()) == slug(name));
+    named.copied().ok_or_else(|| {
+        let names: Vec<String> = known.iter().map(|one| slug(&one.name())).collect();
+        Failure::BadInput(anyhow!(
             "there is no condition {name} in the arena; {}",
             choices(name, names.iter().map(String::as_str))
-        )
-    });
-    named.or_bad_input()
+        ))
+    })
 }
 
 impl Arguments {
@@ -275,9 +251,18 @@ impl Arguments {
     }
 }
 
+/// Returns the name of the robot that carries a contestant, in tables.
+fn robot_title(contestant: Contestant, robot: Option<RobotEntry>) -> &'static str {
+    let own = || Registry::current().robot(contestant.own_robot());
+    match contestant.baseline() {
+        Some(_) => RobotEntry::LASER_PIONEER.title,
+        None => robot.or_else(own).map_or("", |robot| robot.title),
+    }
+}
+
 fn line<'a>(
     contestant: Contestant,
-    robot: ContestRobot,
+    robot: Option<RobotEntry>,
     world: &'a DrawnWorld,
     record: &'a ContestRecord,
 ) -> Line<'a> {
@@ -289,8 +274,8 @@ fn line<'a>(
         LocateOutcome::Abstained { .. } => "abstained",
     });
     Line {
-        system: contestant.name(),
-        robot: contestant.robot(robot),
+        system: contestant.title(),
+        robot: robot_title(contestant, robot),
         world: &world.name,
         seed: world.seed,
         abstained: record.abstained.as_deref(),
@@ -314,7 +299,7 @@ fn line<'a>(
 /// Writes the table with one row for each system.
 fn table(
     contestants: &[Contestant],
-    robot: ContestRobot,
+    robot: Option<RobotEntry>,
     worlds: &[DrawnWorld],
     held: &[ContestRecord],
     out: &mut dyn Write,
@@ -362,8 +347,8 @@ fn table(
         writeln!(
             out,
             "{:18} {:13} {:>6} {:>9} {:>5} {:>7} {:>6} {:>7} {:>13}",
-            contestant.name(),
-            contestant.robot(robot),
+            contestant.title(),
+            robot_title(*contestant, robot),
             records.len(),
             count(&|r| r.abstained.is_some()),
             of(&|r| judged(r).is_some_and(|j| j.is_right)),
@@ -394,7 +379,7 @@ fn why_not(
             writeln!(
                 out,
                 "{} abstained, first in {}: {why}",
-                contestant.name(),
+                contestant.title(),
                 world.name
             )?;
         }

@@ -4,23 +4,21 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
-use tolman_arena::contest::{
-    Condition, Contest, ContestRobot, Contestant, LocateOutcome, Moment, Schooling, ShowRecord,
-};
+use tolman_arena::contest::{Condition, Contest, LocateOutcome, Moment, ShowRecord};
+use tolman_arena::registry::{DemoWorld, Schooling};
 use tolman_film::Film;
 use tolman_maze::{Maze, MazeFile};
 use tolman_replay::{Chapter, Mark, Marks, Replay, moving_picture};
 
 use super::replay_file::{self, Overwrite};
 use super::watched::Watched;
-use super::{Failure, OrBadInput, file, maze};
+use super::{App, Failure, OrBadInput, file, maze};
 
 /// Lets a robot explore a maze, moves it elsewhere, lets it localize and drive to the goal; writes
 /// a replay for the browser
 #[derive(clap::Args)]
 #[command(after_help = "\
-Systems: mslst, mslst-better, cpm, cpm-better, diktiometry, diktiometry-better,
-gng-slam, gng-slam-better (or gngslam), micromouse. Exit code 1: the robot did not
+`tolman systems` lists the systems that learn. Exit code 1: the robot did not
 find out where it is, or did not reach the goal; try another --seed.
 
 The file is tolman-demo.html in the current folder, or tolman-demo-2.html … if that
@@ -63,44 +61,23 @@ const MAZE: &str = include_str!("../../mazes/demo.maze");
 /// Maze for systems that map a large maze slowly or do not localize in it.
 const SMALL: &str = include_str!("../../mazes/star.maze");
 
-/// Returns the contestant called `name` by `tolman arena` or `tolman systems`.
-fn contestant(name: &str) -> Result<Contestant, Failure> {
-    // `tolman learn` calls the better one `gngslam`.
-    if name == "gngslam" {
-        return Ok(Contestant::GngSlamBetter);
-    }
-    let plain = |name: &str| name.to_lowercase().replace(' ', "-");
-    let learning = || Contestant::ALL.into_iter().filter(|one| one.learns());
-    let named = learning().find(|one| plain(one.name()) == plain(name));
-    let named = named.ok_or_else(|| {
-        let names = learning().map(|one| one.name().to_lowercase().replace(' ', "-"));
-        anyhow!(
-            "there is no system {name} in the demo; choose one of: {}",
-            names.collect::<Vec<_>>().join(", ")
-        )
-    });
-    named.or_bad_input()
-}
-
-/// Returns the maze and the seed that show a system well.
-const fn usual(contestant: Contestant) -> (&'static str, u64) {
-    match contestant {
-        Contestant::Mslst => (SMALL, 42),
-        Contestant::GngSlam | Contestant::GngSlamBetter => (SMALL, 1),
-        Contestant::MslstBetter => (MAZE, 8),
-        _ => (MAZE, 1),
-    }
-}
-
-pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+pub(super) fn carry_out(
+    app: &App<'_>,
+    arguments: &Arguments,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
     let overwrite = Overwrite::if_forced(arguments.force);
     let path = match &arguments.out {
         Some(path) => path.clone(),
         None => free_name()?,
     };
     replay_file::check(&path, overwrite)?;
-    let contestant = contestant(&arguments.system)?;
-    let (usual, seed) = usual(contestant);
+    let contestant = app.system(&arguments.system, |system| system.learns())?;
+    let (usual, seed) = contestant.demo();
+    let usual = match usual {
+        DemoWorld::Small => SMALL,
+        DemoWorld::Large => MAZE,
+    };
     let (name, maze) = match &arguments.maze {
         Some(path) => {
             let file = maze::read(path)?;
@@ -110,7 +87,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     };
     let contest = Contest {
         contestant,
-        robot: ContestRobot::Own,
+        robot: None,
         maze: &maze,
         name: &name,
         condition: Condition::AsMade,
@@ -167,13 +144,10 @@ fn shown(contest: &Contest<'_>, is_live: bool) -> Result<(ShowRecord, Replay), F
     let mut film: Option<Film> = None;
     let mut replay = None;
     let record = contest.show(&Schooling::default(), |outing, moment| {
-        let film = film.get_or_insert_with(|| {
-            let laid = contest.contestant.world_from_map(outing.path()[0]);
-            Film::laid_at(outing, laid)
-        });
+        let film = film.get_or_insert_with(|| Film::new(outing));
         match moment {
             Moment::Begun => {
-                let name = contest.contestant.name();
+                let name = contest.contestant.title();
                 let watched = is_live.then(|| Watched::open(outing, name, contest.seed, None));
                 live = watched;
             }
@@ -185,7 +159,11 @@ fn shown(contest: &Contest<'_>, is_live: bool) -> Result<(ShowRecord, Replay), F
             }
             Moment::PutDown => film.lifted(outing),
             Moment::Over => {
-                let title = format!("{} in the maze {}", contest.contestant.name(), contest.name);
+                let title = format!(
+                    "{} in the maze {}",
+                    contest.contestant.title(),
+                    contest.name
+                );
                 replay = Some(core::mem::replace(film, Film::new(outing)).replay(outing, title));
             }
         }
@@ -220,7 +198,7 @@ fn tell(contest: &Contest<'_>, record: &ShowRecord, out: &mut dyn Write) -> Resu
         shortest,
         ..
     } = record;
-    let name = contest.contestant.name();
+    let name = contest.contestant.title();
     writeln!(
         out,
         "{name} explored the maze {}: {explored:.1} m driven, {} places on its map.",

@@ -13,8 +13,8 @@ use super::map::map_text;
 use super::send::{Pursued, check_origin, send, tell_replay};
 use super::sent_out::SentOut;
 use super::unfinished::{GoingOn, checksum};
-use super::{App, Failure, OrBadInput};
-use crate::system::MapText;
+use super::{App, Failure, OrBadInput, of_registry};
+use tolman_arena::registry::{MapText, Schooling};
 
 /// Sends a robot to the goal of a maze or a world by a learned map; exits 1 if it does not arrive
 ///
@@ -23,13 +23,13 @@ use crate::system::MapText;
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
-  tolman learn --system cpm --maze mazes/cpm-3.maze --out map.json
+  tolman learn --system cpm-better --maze mazes/cpm-3.maze --out map.json
   tolman drive --map map.json --maze mazes/cpm-3.maze --seed 7 --replay drive.html
-  tolman learn --system cpm --maze mazes/cpm-2.maze --out other.json
+  tolman learn --system cpm-better --maze mazes/cpm-2.maze --out other.json
   tolman drive --map map.json --map other.json --maze mazes/cpm-3.maze
-  tolman learn --system cpm --robot laser-pioneer --world mazes/worlds/corridors.json --out corridors-map.json
+  tolman learn --system cpm-better --robot laser-pioneer --world mazes/worlds/corridors.json --out corridors-map.json
   tolman drive --map corridors-map.json --world mazes/worlds/corridors.json --seed 2
-  tolman learn --system gngslam --world mazes/worlds/pitch.json --out pitch-map.json
+  tolman learn --system gng-slam-better --world mazes/worlds/pitch.json --out pitch-map.json
   tolman drive --map pitch-map.json --world mazes/worlds/pitch.json --seed 3 --replay drive.html
 
 Ctrl-C saves the drive; --from FILE continues it, bit for bit as if it had not been interrupted.")]
@@ -72,9 +72,10 @@ pub(super) fn carry_out(
     }
     arguments.sent_out.refuse_preset()?;
     let terrain = arguments.sent_out.terrain()?;
-    let mut setup = arguments.sent_out.setup(&terrain);
-    // Unless --robot names another, the robot that learned the map drives.
-    setup.robot = setup.robot.or(Some(&maps[0].origin.robot));
+    let schooling = Schooling::default();
+    let learner = &maps[0].origin.robot;
+    let robot = arguments.sent_out.robot_or(app, system, learner)?;
+    let setup = arguments.sent_out.setup(&terrain, robot, &schooling);
     let context = || {
         let context = format!("{} cannot drive in {}", system.name(), setup.world);
         let mut origins = maps.iter().map(|map| &map.origin.world);
@@ -88,7 +89,7 @@ pub(super) fn carry_out(
     };
     let outing = system.driver(&maps, &setup);
     let mut outing = outing
-        .map_err(|error| error.context(context()))
+        .map_err(|error| of_registry(error).context(context()))
         .or_bad_input()?;
     if !arguments.anyway {
         let mut checked = maps.iter().map(|map| check_origin(map, &*outing));

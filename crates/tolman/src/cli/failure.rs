@@ -8,6 +8,9 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::builder::styling::{AnsiColor, Style};
+use tolman_arena::BoxError;
+use tolman_arena::registry::UnknownName;
+use tolman_experiment::choices;
 
 use super::interrupt::INTERRUPTED;
 
@@ -56,6 +59,17 @@ impl Failure {
             | Self::Disagrees(error)
             | Self::Interrupted(error) => error,
         }
+    }
+}
+
+/// Returns an error of the registry. An unknown name says which known one is nearest.
+pub(super) fn of_registry(error: BoxError) -> anyhow::Error {
+    match error.downcast::<UnknownName>() {
+        Ok(unknown) => {
+            let known = unknown.known.iter().map(String::as_str);
+            anyhow::anyhow!("{}; {}", unknown.told, choices(&unknown.name, known))
+        }
+        Err(error) => anyhow::Error::from_boxed(error),
     }
 }
 

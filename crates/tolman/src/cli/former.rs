@@ -23,9 +23,9 @@ pub(super) fn refuse(former: &str, now: &str) -> Failure {
 /// Returns the failure for a verb of `tolman cpm`.
 pub(super) fn refuse_cpm(arguments: &Arguments) -> Failure {
     match arguments.rest.first().map(String::as_str) {
-        Some("learn") => refuse("cpm learn", "learn --system cpm"),
+        Some("learn") => refuse("cpm learn", "learn --system cpm-better"),
         Some("solve") => refuse("cpm solve", "drive"),
         Some("distinct") => refuse("cpm distinct", "maze distinct"),
-        _ => refuse("cpm", "learn --system cpm"),
+        _ => refuse("cpm", "learn --system cpm-better"),
     }
 }

@@ -9,19 +9,18 @@ use serde_json::json;
 use tolman_arena::course::Terrain;
 use tolman_arena::cpm::epuck;
 use tolman_arena::foreign::{Budget, ForeignBrain, Hello, Launch, Log};
-use tolman_arena::pioneer::{LASER_PIONEER, calibrated};
 use tolman_arena::run::TaskEnd;
 use tolman_arena::{Depicted, Outing, RobotFacts, Sent};
 use tolman_robot::{Goal, Landmark, Task};
-use tolman_sim::robots::{Epuck, LaserPioneer};
+use tolman_sim::robots::Epuck;
 
 use super::ground::Ground;
 use super::looks::Looks;
 use super::send::{Pursued, send, tell_replay};
 use super::unfinished::Keeper;
-use super::{Failure, OrBadInput, interrupt, keep};
-use crate::start::Start;
-use crate::system::{Settings, Setup, slug, start_anywhere};
+use super::{App, Failure, OrBadInput, interrupt, keep, of_registry};
+use tolman_arena::contest::Condition;
+use tolman_arena::registry::{RobotEntry, RobotKind, Schooling, Settings, Setup, Start, slug};
 
 /// Lets your program, in any language, drive a simulated robot to the goal, and scores it; exits 1
 /// if the robot does not arrive
@@ -91,12 +90,21 @@ fn ground_or_template() -> ArgGroup {
     either.required(true)
 }
 
-pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+pub(super) fn carry_out(
+    app: &App<'_>,
+    arguments: &Arguments,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
     if arguments.template {
         return Ok(out.write_all(TEMPLATE.as_bytes())?);
     }
     let (world, terrain) = arguments.ground.read()?;
-    let setup = arguments.setup(&world, &terrain);
+    let robot = match &arguments.robot {
+        Some(name) => app.robot(name)?,
+        None => RobotEntry::LASER_PIONEER,
+    };
+    let schooling = Schooling::default();
+    let setup = arguments.setup(&world, &terrain, robot, &schooling);
     let stop = interrupt::flag()?;
     let keeper = keep::keeper();
     let launch = Launch {
@@ -120,24 +128,41 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
 }
 
 impl Arguments {
-    fn setup<'a>(&'a self, world: &'a str, terrain: &'a Terrain) -> Setup<'a> {
+    fn setup<'a>(
+        &'a self,
+        world: &'a str,
+        terrain: &'a Terrain,
+        robot: RobotEntry,
+        schooling: &'a Schooling,
+    ) -> Setup<'a> {
         Setup {
             world,
             terrain,
             seed: self.seed,
             start: self.start,
             steps: Some(self.steps),
-            robot: self.robot.as_deref(),
+            robot,
             from: None,
             settings: Settings::default(),
+            condition: Condition::AsMade,
+            schooling,
         }
     }
 
     /// Starts the program and puts its robot on the course.
     fn outing(&self, setup: &Setup<'_>, launch: &Launch<'_>) -> Result<Box<dyn Outing>, Error> {
-        match setup.robot(&[LASER_PIONEER, Epuck::NAME])? {
-            LASER_PIONEER => self.outing_of(LaserPioneer::new(calibrated())?, setup, launch),
-            _ => self.outing_of(Epuck::new(epuck())?, setup, launch),
+        let robot = setup.robot;
+        let model = || robot.laser_model(robot.laser_config());
+        match robot.kind() {
+            RobotKind::Laser => {
+                let model = model().map_err(of_registry)?;
+                self.outing_of(model, setup, launch)
+            }
+            RobotKind::Epuck => self.outing_of(Epuck::new(epuck())?, setup, launch),
+            RobotKind::Camera | RobotKind::Pioneer2dx => Err(anyhow!(
+                "a program cannot be given the {}: give --robot laser-pioneer or e-puck",
+                robot.title
+            )),
         }
     }
 
@@ -148,7 +173,9 @@ impl Arguments {
         launch: &Launch<'_>,
     ) -> Result<Box<dyn Outing>, Error> {
         let course = setup.terrain.course(setup.world, model.body())?;
-        let start = start_anywhere(setup, &course, model.body())?;
+        let start = setup
+            .start_anywhere(&course, model.body())
+            .map_err(of_registry)?;
         let robot = course.robot_at(start, model, setup.seed)?;
         let facts = RobotFacts::of(&robot);
         let hello = Hello {

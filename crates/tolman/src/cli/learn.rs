@@ -15,8 +15,8 @@ use super::send::{Pursued, check_origin, send, tell_replay};
 use super::sent_out::SentOut;
 use super::unfinished::{Former, FormerMap, Keeper};
 use super::words::words;
-use super::{App, Failure, OrBadInput, file};
-use crate::system::MapText;
+use super::{App, Failure, OrBadInput, file, of_registry};
+use tolman_arena::registry::{MapText, Schooling};
 
 /// Lets a system learn a map of a maze or a world, and writes the map to a file
 #[derive(clap::Args)]
@@ -29,11 +29,11 @@ then the same, bit for bit, as without the interruption.
 
 Examples:
   tolman learn --system mslst --preset j --maze mazes/j.maze --out j-map.json
-  tolman learn --system cpm --maze mazes/cpm-3.maze --out map.json --replay learned.html
-  tolman learn --system gngslam --world mazes/worlds/pitch.json --out pitch-map.json
-  tolman learn --system diktiometry --maze mazes/j-long.maze --set moves=300 --out j-survey.json
-  tolman learn --system diktiometry --maze mazes/j-long.maze --from j-survey.json --out j-survey.json
-  tolman learn --system cpm --robot laser-pioneer --world mazes/worlds/corridors.json --out corridors-map.json")]
+  tolman learn --system cpm-better --maze mazes/cpm-3.maze --out map.json --replay learned.html
+  tolman learn --system gng-slam-better --world mazes/worlds/pitch.json --out pitch-map.json
+  tolman learn --system diktiometry-better --maze mazes/j-long.maze --set moves=300 --out j-survey.json
+  tolman learn --system diktiometry-better --maze mazes/j-long.maze --from j-survey.json --out j-survey.json
+  tolman learn --system cpm-better --robot laser-pioneer --world mazes/worlds/corridors.json --out corridors-map.json")]
 pub(super) struct Arguments {
     /// System that learns
     #[arg(long, value_name = "NAME")]
@@ -130,16 +130,18 @@ pub(super) fn carry_out(
     arguments: &Arguments,
     out: &mut dyn Write,
 ) -> Result<(), Failure> {
-    let system = app.system(&arguments.system)?;
+    let system = app.system(&arguments.system, |system| system.learns())?;
     let from = arguments.from.as_deref().map(From::read).transpose()?;
     let (from, former) = from.map_or((None, None), |From { map, former }| (map, former));
     let terrain = arguments.sent_out.terrain()?;
-    let mut setup = arguments.sent_out.setup(&terrain);
+    let schooling = Schooling::default();
+    let robot = arguments.sent_out.robot(app, system)?;
+    let mut setup = arguments.sent_out.setup(&terrain, robot, &schooling);
     setup.from = from.as_ref();
     let context = || format!("{} cannot learn {}", system.name(), setup.world);
     let outing = system.learner(&setup);
     let mut outing = outing
-        .map_err(|error| error.context(context()))
+        .map_err(|error| of_registry(error).context(context()))
         .or_bad_input()?;
     if let (Some(from), false) = (&from, arguments.anyway) {
         check_origin(from, &*outing)?;
@@ -168,7 +170,7 @@ pub(super) fn carry_out(
         )));
     };
     let map = of_text(&arguments.out, text.clone())?;
-    let map = system.map(&map)?;
+    let map = system.map(&map).map_err(of_registry)?;
     file::write(&arguments.out, text)?;
     if arguments.looks.json {
         let json = json!({

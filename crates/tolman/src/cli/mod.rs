@@ -50,11 +50,11 @@ use std::process::ExitCode;
 
 use anyhow::anyhow;
 use clap::{Parser, Subcommand};
-use failure::{Failure, OrBadInput};
+use failure::{Failure, OrBadInput, of_registry};
 use stdout::{Stdout, ink};
+use tolman_arena::registry::{MapText, Registry, RobotEntry, SystemEntry};
 use tolman_experiment::choices;
 
-use crate::system::{MapText, SystemEntry};
 use crate::{Build, Catalogue, Family};
 
 /// Runs systems and robots in mazes, measures them, and compares them with published papers.
@@ -72,8 +72,8 @@ Examples:
   tolman run wall-follow --maze mazes/j.maze --seed 7 --svg run.svg
   tolman learn --system mslst --preset j --maze mazes/j.maze --out j-map.json
   tolman drive --map j-map.json --maze mazes/j.maze --seed 7
-  tolman learn --system cpm --maze mazes/cpm-3.maze --out map.json
-  tolman learn --system diktiometry --maze mazes/j-long.maze --out j-survey.json
+  tolman learn --system cpm-better --maze mazes/cpm-3.maze --out map.json
+  tolman learn --system diktiometry-better --maze mazes/j-long.maze --out j-survey.json
   tolman maze show mazes/j.maze
   tolman mouse mazes/grid/braided-1.txt
   tolman race mazes/grid/braided-2.txt --svg race.svg
@@ -128,20 +128,79 @@ struct App<'a> {
 }
 
 impl App<'_> {
-    /// Returns the system called `name`.
+    /// Returns the systems, robots and families that the command knows.
+    fn registry(&self) -> &Registry {
+        &self.catalogue.registry
+    }
+
+    /// Returns the system called `name`, if `is_fit` for the verb.
+    ///
+    /// # Errors
+    /// Bad input if there is none, or it was called so before.
+    fn system(
+        &self,
+        name: &str,
+        is_fit: impl Fn(&dyn SystemEntry) -> bool,
+    ) -> Result<&'static dyn SystemEntry, Failure> {
+        let named = self.registry().system(name);
+        if let Some(system) = named.filter(|system| is_fit(*system)) {
+            return Ok(system);
+        }
+        if let Some(now) = Registry::former_name(name) {
+            return Err(Failure::BadInput(anyhow!(
+                "{name} is now called {now}: give --system {now}"
+            )));
+        }
+        let fit = self.registry().systems.iter();
+        let fit = fit.filter(|system| is_fit(**system));
+        let what = match named {
+            Some(_) => "does not do this",
+            None => "is not a system",
+        };
+        Err(Failure::BadInput(anyhow!(
+            "{name} {what}; {}",
+            choices(name, fit.map(|system| system.name()))
+        )))
+    }
+
+    /// Returns the robot called `name`.
     ///
     /// # Errors
     /// Bad input if there is none.
-    fn system(&self, name: &str) -> Result<&'static dyn SystemEntry, Failure> {
-        let mut systems = self.catalogue.systems.iter();
-        let named = systems.find(|system| system.name() == name);
-        named.copied().ok_or_else(|| {
-            let names = self.catalogue.systems.iter().map(|system| system.name());
+    fn robot(&self, name: &str) -> Result<RobotEntry, Failure> {
+        self.registry().robot(name).ok_or_else(|| {
+            let names = self.registry().robots.iter().map(|robot| robot.name);
             Failure::BadInput(anyhow!(
-                "there is no system {name}; {}",
+                "there is no robot {name}; {}",
                 choices(name, names)
             ))
         })
+    }
+
+    /// Returns the robot called `name` if it can carry a system; without a name, the one that the
+    /// system is made for.
+    ///
+    /// # Errors
+    /// Bad input that says why not.
+    fn robot_for(
+        &self,
+        system: &dyn SystemEntry,
+        name: Option<&str>,
+    ) -> Result<RobotEntry, Failure> {
+        let robot = self.robot(name.unwrap_or(system.own_robot()))?;
+        match system.why_not(&robot) {
+            None => Ok(robot),
+            Some(why) => {
+                let able = self.registry().robots_of(system);
+                let able: Vec<&str> = able.iter().map(|robot| robot.name).collect();
+                Err(Failure::BadInput(anyhow!(
+                    "the {} cannot carry {}: {why}; give --robot {}",
+                    robot.title,
+                    system.name(),
+                    able.join(" or ")
+                )))
+            }
+        }
     }
 
     /// Returns the family of worlds called `name`.
@@ -149,7 +208,7 @@ impl App<'_> {
     /// # Errors
     /// Bad input if there is none.
     fn family(&self, name: &str) -> Result<&Family, Failure> {
-        let families = &self.catalogue.families;
+        let families = &self.registry().families;
         Family::named(families, name).ok_or_else(|| {
             let names = families.iter().map(|family| family.name);
             Failure::BadInput(anyhow!(
@@ -164,9 +223,7 @@ impl App<'_> {
     /// # Errors
     /// Bad input if this program does not know it.
     fn system_of(&self, map: &MapText) -> Result<&'static dyn SystemEntry, Failure> {
-        let mut systems = self.catalogue.systems.iter();
-        let named = systems.find(|system| system.name() == map.system);
-        named.copied().ok_or_else(|| {
+        self.registry().system(&map.system).ok_or_else(|| {
             Failure::BadInput(anyhow!(
                 "{}: its system, {}, is unknown to this program",
                 map.name,
@@ -184,6 +241,8 @@ impl App<'_> {
 pub fn run(catalogue: &Catalogue, build: &Build) -> ExitCode {
     called::set(catalogue.program);
     replay_file::set_formats(&catalogue.replay_formats);
+    // A second call finds the registry of the first, as it does with program and formats.
+    let _ = catalogue.registry.clone().install();
     let arguments = Arguments::parse();
     let mut out = Stdout::lock();
     let done = arguments
@@ -210,17 +269,17 @@ impl Verb {
             Self::Drive(arguments) => drive::carry_out(app, &arguments, out),
             Self::Map(arguments) => arguments.carry_out(app, out),
             Self::Score(arguments) => score::carry_out(&arguments, out),
-            Self::Systems(_) => systems::carry_out(app, out),
+            Self::Systems(arguments) => systems::carry_out(app, &arguments, out),
             Self::Arena(arguments) => arena::carry_out(app, &arguments, out),
             Self::Audit(arguments) => audit::carry_out(&arguments, out),
-            Self::Run(arguments) => run::carry_out(&arguments, out),
+            Self::Run(arguments) => run::carry_out(app, &arguments, out),
             Self::Replay(arguments) => replay::carry_out(&arguments, out),
-            Self::Demo(arguments) => demo::carry_out(&arguments, out),
+            Self::Demo(arguments) => demo::carry_out(app, &arguments, out),
             Self::Maze(verb) => verb.carry_out(app, out),
             Self::Pitch(verb) => verb.carry_out(out),
             Self::Mouse(arguments) => mouse::carry_out(&arguments, out),
             Self::Race(arguments) => race::carry_out(&arguments, out),
-            Self::Host(arguments) => host::carry_out(&arguments, out),
+            Self::Host(arguments) => host::carry_out(app, &arguments, out),
             Self::MmsHost(arguments) => mms_host::carry_out(&arguments, out),
             Self::Experiment(arguments) => experiment::carry_out(app, &arguments, out),
             Self::Trial(arguments) => trial::carry_out(app, &arguments, out),
@@ -229,7 +288,10 @@ impl Verb {
             Self::Completions(arguments) => completions::carry_out(&arguments, out),
             Self::Man(arguments) => man::carry_out(&arguments, out),
             Self::Solve(_) => Err(former::refuse("solve", "drive")),
-            Self::Survey(_) => Err(former::refuse("survey", "learn --system diktiometry")),
+            Self::Survey(_) => Err(former::refuse(
+                "survey",
+                "learn --system diktiometry-better",
+            )),
             Self::Cpm(arguments) => Err(former::refuse_cpm(&arguments)),
         }
     }

@@ -14,7 +14,7 @@ pub(super) fn of(course: &Course, path: &[Pose], told: &str) -> String {
 
 /// Returns the SVG text of the maze with several ways. The last one is on top, in the first colour.
 pub(super) fn of_runs(course: &Course, paths: &[&[Pose]], told: &str) -> String {
-    let mut plan = tolman_papers::plan_of_course(course, WIDTH);
+    let mut plan = tolman_arena::drawing::plan_of_course(course, WIDTH);
     let paths = paths.iter().filter(|path| !path.is_empty());
     let colours = (0..paths.clone().count() as u32).rev();
     for (colour, path) in colours.zip(paths) {

@@ -37,7 +37,7 @@ pub(super) enum Verb {
 #[command(after_help = "\
 Example:
   tolman pitch world random-7 --out arena.json
-  tolman learn --system gngslam --world arena.json --out map.json")]
+  tolman learn --system gng-slam-better --world arena.json --out map.json")]
 pub(super) struct World {
     /// Name of the arena
     #[arg(value_name = "ARENA")]

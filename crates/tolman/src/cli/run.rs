@@ -5,10 +5,10 @@ mod trace;
 
 use std::io::Write;
 
-use tolman_arena::cast::{Agent, Cast};
+use anyhow::Context;
+use tolman_arena::cast::Cast;
 
-use super::Failure;
-use super::words::words;
+use super::{App, Failure};
 pub(super) use outing::{Name, Outing, carry_out as send};
 
 /// Sends one robot through a maze or a world and reports the result
@@ -25,30 +25,26 @@ Examples:
   tolman run wall-follow --world mazes/worlds/rooms.json --seed 3
   tolman run wall-follow --world mazes/worlds/hall.yaml --goal 2,0 --seed 2")]
 pub(super) struct Arguments {
-    /// Brain that chooses the actions
-    #[arg(value_parser = words(BRAINS.map(|(word, agent)| (word, agent.description(), (word, agent)))))]
-    brain: (&'static str, Agent),
+    /// Brain that chooses the actions: a baseline of `tolman systems`
+    #[arg(value_name = "BRAIN")]
+    brain: String,
     #[command(flatten)]
     outing: Outing,
 }
 
-/// The agents with their names on the command line.
-const BRAINS: [(&str, Agent); 5] = [
-    ("avoid", Agent::Avoid),
-    ("wall-follow", Agent::WallFollow),
-    ("random", Agent::Random),
-    ("oracle", Agent::Oracle),
-    ("unlocalized-oracle", Agent::UnlocalizedOracle),
-];
-
-pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let (word, agent) = arguments.brain;
+pub(super) fn carry_out(
+    app: &App<'_>,
+    arguments: &Arguments,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
+    let brain = app.system(&arguments.brain, |system| system.baseline().is_some())?;
     let name = Name {
-        word,
-        title: agent.name(),
+        word: brain.name(),
+        title: brain.title(),
         nodes: &[],
     };
     let mind = |course: &_, robot: &_| {
+        let agent = brain.baseline().context("a baseline")?;
         let mind = Cast::default().mind(agent, course, robot);
         mind.map_err(outing::classify)
     };

@@ -13,7 +13,7 @@ use super::looks::Looks;
 use super::unfinished::{Done, Keeper};
 use super::watched::Watched;
 use super::{Failure, file, interrupt, picture, replay_file};
-use crate::system::{MapText, Setup, slug};
+use tolman_arena::registry::{MapText, Setup, slug};
 use tolman_film::Film;
 
 /// Outcome of an outing.

@@ -2,11 +2,11 @@ use anyhow::anyhow;
 use tolman_arena::Outing;
 use tolman_arena::course::Terrain;
 
-use super::Failure;
 use super::ground::{Ground, required};
 use super::unfinished::Call;
-use crate::start::Start;
-use crate::system::{Settings, Setup};
+use super::{App, Failure};
+use tolman_arena::contest::Condition;
+use tolman_arena::registry::{RobotEntry, Schooling, Settings, Setup, Start, SystemEntry};
 
 /// Options for sending out a system.
 #[derive(clap::Args)]
@@ -76,20 +76,53 @@ impl SentOut {
             .with("--steps", self.steps)
     }
 
-    /// Returns the setup with which a system is sent out.
-    pub(super) fn setup<'a>(&'a self, (world, terrain): &'a (String, Terrain)) -> Setup<'a> {
+    /// Returns the robot that carries a system: the one that was named, or the one that the system
+    /// is made for.
+    ///
+    /// # Errors
+    /// Bad input if there is no such robot, or it cannot carry the system.
+    pub(super) fn robot(
+        &self,
+        app: &App<'_>,
+        system: &dyn SystemEntry,
+    ) -> Result<RobotEntry, Failure> {
+        app.robot_for(system, self.robot.as_deref())
+    }
+
+    /// Returns the same, with `usual` in place of the one that the system is made for.
+    ///
+    /// # Errors
+    /// As [`robot`](Self::robot).
+    pub(super) fn robot_or(
+        &self,
+        app: &App<'_>,
+        system: &dyn SystemEntry,
+        usual: &str,
+    ) -> Result<RobotEntry, Failure> {
+        app.robot_for(system, Some(self.robot.as_deref().unwrap_or(usual)))
+    }
+
+    /// Returns the setup with which a system is sent out on a robot.
+    pub(super) fn setup<'a>(
+        &'a self,
+        (world, terrain): &'a (String, Terrain),
+        robot: RobotEntry,
+        schooling: &'a Schooling,
+    ) -> Setup<'a> {
         Setup {
             world,
             terrain,
             seed: self.seed,
             start: self.start,
             steps: self.steps,
-            robot: self.robot.as_deref(),
+            robot,
             from: None,
             settings: Settings {
                 preset: self.preset.as_deref(),
                 set: &self.set,
             },
+            condition: Condition::AsMade,
+            schooling,
         }
     }
 }

@@ -33,7 +33,13 @@ o---o---o---o---o
 /// Learns a map of a maze, `map.json`.
 const fn learn(maze: &str) -> [&str; 7] {
     [
-        "learn", "--system", "cpm", "--maze", maze, "--out", "map.json",
+        "learn",
+        "--system",
+        "cpm-better",
+        "--maze",
+        maze,
+        "--out",
+        "map.json",
     ]
 }
 
@@ -127,7 +133,7 @@ fn a_robot_that_knows_two_mazes_is_put_down_anywhere_in_one() {
         ("hook.maze", "2", "other.json"),
     ];
     for (maze, seed, out) in learned {
-        let learn = ["learn", "--system", "cpm"];
+        let learn = ["learn", "--system", "cpm-better"];
         let of = ["--maze", maze, "--seed", seed, "--out", out];
         tolman_in(&folder, &[&learn[..], &of[..]].concat()).done();
     }

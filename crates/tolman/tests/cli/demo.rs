@@ -13,7 +13,7 @@ fn every_system_learns_a_maze_and_comes_home() {
         "mslst-better",
         "cpm-better",
         "diktiometry",
-        "gngslam",
+        "gng-slam-better",
         "micromouse",
     ] {
         let told = tolman_in(&folder, &["demo", "--system", system]).done();

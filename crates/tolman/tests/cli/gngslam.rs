@@ -22,7 +22,7 @@ fn json(text: &str) -> Value {
 const LEARN: [&str; 9] = [
     "learn",
     "--system",
-    "gngslam",
+    "gng-slam-better",
     "--world",
     "room.json",
     "--set",
@@ -102,7 +102,13 @@ fn a_map_that_is_unfinished_or_of_another_world_is_told_of() {
 fn a_laser_pioneer_learns_a_maze() {
     let folder = folder("gngslam-maze");
     fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
-    let learn = ["learn", "--system", "gngslam", "--robot", "laser-pioneer"];
+    let learn = [
+        "learn",
+        "--system",
+        "gng-slam-better",
+        "--robot",
+        "laser-pioneer",
+    ];
     let there = ["--maze", "corridor.maze", "--out", "map.json"];
     tolman_in(&folder, &[&learn[..], &there].concat()).done();
     let check = ["map", "check", "map.json", "--maze", "corridor.maze"];

@@ -199,7 +199,8 @@ fn mslst_better_goes_on_with_an_interrupted_run() {
 #[test]
 fn cpm_goes_on_with_an_interrupted_run() {
     let folder = maze("interrupted-cpm", "9x9");
-    let learn = "learn --system cpm --maze a.maze --start random --out map.json --svg map.svg";
+    let learn =
+        "learn --system cpm-better --maze a.maze --start random --out map.json --svg map.svg";
     let files = ["map.json", "map.svg"];
     Run::new(&folder, learn, &files, "map.json.unfinished").survives_all();
 }
@@ -207,23 +208,24 @@ fn cpm_goes_on_with_an_interrupted_run() {
 #[test]
 fn gngslam_goes_on_with_an_interrupted_run() {
     let folder = maze("interrupted-gngslam", "4x4");
-    let learn = "learn --system gngslam --maze a.maze --steps 3000 --out map.json";
+    let learn = "learn --system gng-slam-better --maze a.maze --steps 3000 --out map.json";
     Run::new(&folder, learn, &["map.json"], "map.json.unfinished").survives_all();
 }
 
 #[test]
 fn the_diktiometry_goes_on_with_an_interrupted_run() {
     let folder = maze("interrupted-survey", "6x6");
-    let learn = "learn --system diktiometry --maze a.maze --set moves=500 --out map.json";
+    let learn = "learn --system diktiometry-better --maze a.maze --set moves=500 --out map.json";
     Run::new(&folder, learn, &["map.json"], "map.json.unfinished").survives_all();
 }
 
 #[test]
 fn a_map_that_was_gone_on_with_is_kept_with_the_interrupted_run() {
     let folder = maze("interrupted-from-a-map", "6x6");
-    let first = "learn --system diktiometry --maze a.maze --set moves=40 --out first.json";
+    let first = "learn --system diktiometry-better --maze a.maze --set moves=40 --out first.json";
     tolman_in(&folder, &words(first));
-    let on = "learn --system diktiometry --maze a.maze --set moves=1000 --seed 5 --out map.json";
+    let on =
+        "learn --system diktiometry-better --maze a.maze --set moves=1000 --seed 5 --out map.json";
     let from_map = format!("{on} --from first.json");
     let began = Instant::now();
     tolman_in(&folder, &words(&from_map));
@@ -255,7 +257,7 @@ fn a_run_goes_on_when_it_was_interrupted() {
 fn a_drive_goes_on_when_it_was_interrupted() {
     let folder = maze("interrupted-drive", "5x5");
     // So short a map that the robot looks for the goal until its time is up.
-    let learn = "learn --system gngslam --maze a.maze --steps 300 --out map.json";
+    let learn = "learn --system gng-slam-better --maze a.maze --steps 300 --out map.json";
     tolman_in(&folder, &words(learn));
     let drive =
         "drive --map map.json --maze a.maze --steps 4000 --svg a.svg --unfinished a.unfinished";
@@ -270,7 +272,7 @@ fn runs_of_all_kinds() -> Vec<Run> {
         Run::new(&folder, &learn, &["map.json"], "map.json.unfinished")
     };
     let driven = maze("killed-drive", "5x5");
-    let learn = "learn --system gngslam --maze a.maze --steps 300 --out map.json";
+    let learn = "learn --system gng-slam-better --maze a.maze --steps 300 --out map.json";
     tolman_in(&driven, &words(learn));
     let drive =
         "drive --map map.json --maze a.maze --steps 4000 --svg a.svg --unfinished a.unfinished";
@@ -287,9 +289,9 @@ fn runs_of_all_kinds() -> Vec<Run> {
             "--set scan_steps=60000 --set graph_actions=9000",
         ),
         learned("mslst-better", "8x8", ""),
-        learned("cpm", "9x9", ""),
-        learned("gngslam", "4x4", "--steps 3000"),
-        learned("diktiometry", "6x6", "--set moves=500"),
+        learned("cpm-better", "9x9", ""),
+        learned("gng-slam-better", "4x4", "--steps 3000"),
+        learned("diktiometry-better", "6x6", "--set moves=500"),
         Run::new(&driven, drive, &["a.svg"], "a.unfinished"),
         Run::new(&maze("killed-run", "48x48"), run, &["run.svg"], "run.part"),
         Run::new(&played, play, &results, no_file),
@@ -330,7 +332,7 @@ fn what_is_not_this_run_is_not_gone_on_with() {
     refused(&avoid, 2, &["the brain was random, and is avoid"]);
     let parts = ["--steps was 4000000, and is not given"];
     refused(&format!("run random --maze a.maze {from}"), 2, &parts);
-    let learn = "learn --system cpm --maze a.maze --out map.json";
+    let learn = "learn --system cpm-better --maze a.maze --out map.json";
     refused(
         &format!("{learn} {from}"),
         2,

@@ -25,7 +25,7 @@ fn a_maze_is_surveyed_looked_at_planned_on_and_gone_on_with() {
     let survey = [
         "learn",
         "--system",
-        "diktiometry",
+        "diktiometry-better",
         "--maze",
         "ring.maze",
         "--set",
@@ -47,7 +47,7 @@ fn a_maze_is_surveyed_looked_at_planned_on_and_gone_on_with() {
     let on = [
         "learn",
         "--system",
-        "diktiometry",
+        "diktiometry-better",
         "--maze",
         "ring.maze",
         "--from",
@@ -106,7 +106,7 @@ fn a_maze_is_surveyed_looked_at_planned_on_and_gone_on_with() {
 fn a_plan_to_where_no_way_is_known_is_a_failure() {
     let folder = folder("no plan");
     fs::write(folder.join("ring.maze"), RING).unwrap();
-    let survey = "learn --system diktiometry --maze ring.maze --set moves=1 --out ring.json";
+    let survey = "learn --system diktiometry-better --maze ring.maze --set moves=1 --out ring.json";
     let survey: Vec<&str> = survey.split(' ').collect();
     tolman_in(&folder, &survey).failed(1, &["wrong or unfinished", "places were visited"]);
     let back = "map plan ring.json --from 1 --to 0";
@@ -145,7 +145,8 @@ fn a_map_that_grows_without_end_is_given_up() {
     let mut bent = corridor(&legs);
     bent.set_goals(vec![Cell::new(10, 10)]);
     fs::write(folder.join("bent.maze"), bent.to_string()).unwrap();
-    let learn = "learn --system diktiometry --maze bent.maze --set moves=5000 --out bent.json";
+    let learn =
+        "learn --system diktiometry-better --maze bent.maze --set moves=5000 --out bent.json";
     let told = [
         "the map grows without end: only 6 of its",
         "walls of more colours",
@@ -158,7 +159,7 @@ fn a_survey_is_gone_on_with_by_the_robot_that_made_it_and_furnished_as_it_was() 
     let folder = folder("whose survey");
     fs::write(folder.join("ring.maze"), RING).unwrap();
     let carry_out = |line: &str| tolman_in(&folder, &line.split(' ').collect::<Vec<_>>());
-    let survey = "learn --system diktiometry --maze ring.maze";
+    let survey = "learn --system diktiometry-better --maze ring.maze";
     let by_laser = format!("{survey} --robot laser-pioneer --set moves=5 --out laser.json");
     carry_out(&by_laser).failed(1, &["wrong or unfinished"]);
     let on = format!("{survey} --from laser.json --out on.json");
@@ -180,7 +181,7 @@ fn a_robot_that_is_put_down_anywhere_drives_to_the_goal() {
     let folder = folder("put down");
     fs::write(folder.join("ring.maze"), RING).unwrap();
     let carry_out = |line: &str| tolman_in(&folder, &line.split(' ').collect::<Vec<_>>());
-    carry_out("learn --system diktiometry --maze ring.maze --set colours=6 --set moves=80 --out ring.json")
+    carry_out("learn --system diktiometry-better --maze ring.maze --set colours=6 --set moves=80 --out ring.json")
         .done();
     let drive = "drive --map ring.json --maze ring.maze --start";
     for start in ["random --seed 3", "random --seed 4", "6.1,2.2,45", "marked"] {
@@ -191,7 +192,7 @@ fn a_robot_that_is_put_down_anywhere_drives_to_the_goal() {
     carry_out(&format!("{drive} random --seed 3 --steps 20")).refused(1, &told);
     carry_out(&format!("{drive} 4,4")).refused(2, &["(4, 4) m lies between the corridors"]);
     carry_out(&format!("{drive} 40,4")).refused(2, &["(40, 4) m", "start in a corridor"]);
-    carry_out("learn --system diktiometry --maze ring.maze --set moves=1 --out start.json")
+    carry_out("learn --system diktiometry-better --maze ring.maze --set moves=1 --out start.json")
         .failed(1, &["places were visited"]);
     let told = ["the goal is not on the map"];
     carry_out("drive --map start.json --maze ring.maze --start random").refused(1, &told);
@@ -203,7 +204,7 @@ fn a_goal_between_two_places_is_planned_and_driven_to() {
     let amid = RING.replace("        G |", "    G     |");
     fs::write(folder.join("amid.maze"), amid).unwrap();
     let carry_out = |line: &str| tolman_in(&folder, &line.split(' ').collect::<Vec<_>>());
-    carry_out("learn --system diktiometry --maze amid.maze --set colours=6 --set moves=80 --out amid.json")
+    carry_out("learn --system diktiometry-better --maze amid.maze --set colours=6 --set moves=80 --out amid.json")
         .done();
     let planned = carry_out("map plan amid.json");
     assert!(planned.done().contains("to the goal on the way"));
@@ -220,7 +221,7 @@ fn a_file_that_is_no_sound_survey_is_refused() {
     let survey = [
         "learn",
         "--system",
-        "diktiometry",
+        "diktiometry-better",
         "--maze",
         "ring.maze",
         "--set",
@@ -232,7 +233,7 @@ fn a_file_that_is_no_sound_survey_is_refused() {
     let text = fs::read_to_string(folder.join("ring.json")).unwrap();
     let check = |changed: &str, expect: &str| {
         fs::write(folder.join("changed.json"), changed).unwrap();
-        let on = "learn --system diktiometry --maze ring.maze --from changed.json --out never.json";
+        let on = "learn --system diktiometry-better --maze ring.maze --from changed.json --out never.json";
         let on: Vec<&str> = on.split(' ').collect();
         tolman_in(&folder, &on).refused(2, &["changed.json", expect]);
         assert!(!folder.join("never.json").exists());
@@ -251,11 +252,11 @@ fn a_file_that_is_no_sound_survey_is_refused() {
     for (former, now) in [
         (
             &["survey", "--maze", "ring.maze"][..],
-            "tolman learn --system diktiometry",
+            "tolman learn --system diktiometry-better",
         ),
         (&["solve", "--map", "map.json"], "tolman drive"),
         (&["cpm", "solve", "--map", "map.json"], "tolman drive"),
-        (&["cpm", "learn"], "tolman learn --system cpm"),
+        (&["cpm", "learn"], "tolman learn --system cpm-better"),
         (&["cpm", "distinct", "a.maze"], "tolman maze distinct"),
     ] {
         tolman_in(&folder, former).refused(2, &[now]);

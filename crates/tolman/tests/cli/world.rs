@@ -108,7 +108,7 @@ fn a_map_of_cpm_says_what_it_can_of_a_world() {
         env!("CARGO_MANIFEST_DIR"),
         "/../../mazes/worlds/corridors.json"
     );
-    let learn = "learn --system cpm --robot laser-pioneer --steps 1500 --out map.json --replay map.html --world";
+    let learn = "learn --system cpm-better --robot laser-pioneer --steps 1500 --out map.json --replay map.html --world";
     let arguments: Vec<&str> = learn.split(' ').chain([world]).collect();
     tolman_in(&folder, &arguments).failed(1, &["ran out of time"]);
     let replay = fs::read_to_string(folder.join("map.html")).unwrap();
@@ -133,7 +133,13 @@ fn what_needs_a_maze_says_so() {
         &["run", "unlocalized-oracle"],
         "the oracle needs a maze of cells",
     );
-    let learn = ["learn", "--system", "diktiometry", "--out", "map.json"];
+    let learn = [
+        "learn",
+        "--system",
+        "diktiometry-better",
+        "--out",
+        "map.json",
+    ];
     refused(&learn, "the diktiometry's office needs a maze of cells");
 }
 

@@ -3,12 +3,11 @@
 use std::io::Write;
 
 use rayon::prelude::*;
-use tolman_arena::contest::{
-    Contest, ContestError, ContestRecord, ContestRobot, Contestant, Schooling,
-};
+use tolman_arena::contest::{Contest, ContestError, ContestRecord};
+use tolman_arena::registry::{RobotEntry, Schooling};
 use tolman_papers::arena::{ArenaWorld, DrawnWorld, PoolRound, RungJudgement, VerdictPool};
 
-use super::{Arguments, Failure, MOST_WORLDS};
+use super::{Arguments, Contestant, Failure, MOST_WORLDS, robot_title};
 
 /// Number of right maps, and of wrong maps, to collect for each system.
 const ENOUGH: u32 = 100;
@@ -21,7 +20,7 @@ system             robot          maps  maps abstained called right, % called wr
 pub(super) fn judge(
     arguments: &Arguments,
     contestants: &[Contestant],
-    robot: ContestRobot,
+    robot: Option<RobotEntry>,
     kinds: &[ArenaWorld],
     out: &mut dyn Write,
 ) -> Result<(), Failure> {
@@ -42,7 +41,7 @@ pub(super) fn judge(
 
 fn held(
     contestant: Contestant,
-    robot: ContestRobot,
+    robot: Option<RobotEntry>,
     round: &PoolRound,
     schooling: &Schooling,
 ) -> Result<Vec<ContestRecord>, ContestError> {
@@ -58,7 +57,7 @@ fn held(
 
 fn row(
     contestant: Contestant,
-    robot: ContestRobot,
+    robot: Option<RobotEntry>,
     pool: &VerdictPool,
     out: &mut dyn Write,
 ) -> std::io::Result<()> {
@@ -69,8 +68,8 @@ fn row(
     writeln!(
         out,
         "{:18} {:13} {:>5} {:>5} {:>9} {:>15} {:>15} {:>12} {:>6}",
-        contestant.name(),
-        contestant.robot(robot),
+        contestant.title(),
+        robot_title(contestant, robot),
         judged.right,
         judged.wrong,
         judged.abstained,

@@ -6,16 +6,16 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
-use clap::ValueEnum;
+use tolman_arena::registry::SystemEntry;
 use tolman_draw::{Figure, Page, PageTable};
 use tolman_formats::{dot, graphml, input, node_link_json, route_geojson, tum};
-use tolman_papers::real::{LogSystem, MapPicture, MappedLog, RobotLog, ros_map};
+use tolman_papers::real::{LogMapper, MapPicture, MappedLog, RobotLog, ros_map};
 use tolman_robot::MapLink;
 
 use crate::cli::bar::bar;
 use crate::cli::kind::Kind;
 use crate::cli::replay_file::{self, Overwrite};
-use crate::cli::{Failure, OrBadInput, called, file};
+use crate::cli::{App, Failure, OrBadInput, called, file};
 
 pub(super) const EXAMPLES: &str = "\
 The folder gets:
@@ -43,40 +43,19 @@ pub(super) struct Arguments {
     /// `mcap`)
     #[arg(long, value_name = "FILE", required = true)]
     log: Option<PathBuf>,
-    /// System that estimates the trajectory
-    #[arg(long, value_enum, default_value = "scan-matching")]
-    system: System,
+    /// System that estimates the trajectory; `tolman systems` lists those that map logs
+    #[arg(long, value_name = "NAME", default_value = "scan-matching")]
+    system: String,
     /// Folder for the results; made if it does not exist
     #[arg(long, value_name = "DIR", required = true)]
     out: Option<PathBuf>,
 }
 
-/// A system that estimates the trajectory of a robot from its log.
-#[derive(Clone, Copy, ValueEnum)]
-enum System {
-    /// Matches scans to earlier ones, and to places seen before: the dense baseline
-    ScanMatching,
-    /// Matches scans to earlier ones; junctions, bends, dead ends and rooms are places, which it
-    /// recognizes again
-    Places,
-    /// Matches scans only to those shortly before
-    Matching,
-    /// Uses the wheels only
-    Odometry,
-    /// Has the same places; the diktiometry recognizes them by bounds on the ways between them
-    Diktiometry,
-    /// Has the same places; CPM recognizes them by what was seen on the ways between them
-    Cpm,
-    /// Has the same places; the place graph of GNG-SLAM recognizes them by the laser's readings
-    /// there
-    Gngslam,
-    /// Refused: it learns from actions, which a log does not name
-    Mslst,
-    /// Refused: it learns the walls of a grid's cells, which a log does not have
-    Micromouse,
-}
-
-pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+pub(super) fn carry_out(
+    app: &App<'_>,
+    arguments: &Arguments,
+    out: &mut dyn Write,
+) -> Result<(), Failure> {
     let Arguments {
         log: Some(path),
         out: Some(folder),
@@ -85,13 +64,14 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     else {
         return Err(Failure::BadInput(anyhow!("give --log FILE and --out DIR")));
     };
+    let mapper = mapper(app, system)?;
     let log = RobotLog::read(path)
         .map_err(|error| explain(path, anyhow::Error::from_boxed(error)))
         .or_bad_input()?;
     for sentence in log.report.sentences() {
         writeln!(out, "{sentence}")?;
     }
-    let found = found(&log, *system)?;
+    let found = found(&log, mapper)?;
     let picture = MapPicture::of(&log, &found.poses);
     let told = sentences(&found);
     let mapped = Mapped {
@@ -159,32 +139,33 @@ fn explain(path: &Path, error: anyhow::Error) -> anyhow::Error {
     }
 }
 
+/// Returns how the system called `name` maps a log.
+fn mapper(app: &App<'_>, name: &str) -> Result<LogMapper, Failure> {
+    let maps_logs = |system: &dyn SystemEntry| system.log_mapper().is_some();
+    let system = app
+        .system(name, |_| true)
+        .or_else(|_| app.system(name, maps_logs))?;
+    system.log_mapper().ok_or_else(|| {
+        let maps = app.registry().systems.iter();
+        let maps = maps.filter(|system| maps_logs(**system));
+        let names: Vec<&str> = maps.map(|system| system.name()).collect();
+        Failure::BadInput(anyhow!(
+            "{name} maps no logs: {}; give --system with one of: {}",
+            system.why_no_log(),
+            names.join(", ")
+        ))
+    })
+}
+
 /// Returns the trajectory estimated from the log. Shows a progress bar on the terminal.
-fn found(log: &RobotLog, system: System) -> Result<MappedLog, Failure> {
-    let system = match system {
-        System::ScanMatching => LogSystem::ScanMatching,
-        System::Places => LogSystem::Places,
-        System::Matching => LogSystem::Matching,
-        System::Odometry => LogSystem::Odometry,
-        System::Diktiometry => LogSystem::Diktiometry,
-        System::Cpm => LogSystem::Cpm,
-        System::Gngslam => LogSystem::PlaceGraph,
-        System::Mslst => return Err(refused("MSLST learns from actions")),
-        System::Micromouse => return Err(refused("the mouse learns the walls of a grid's cells")),
-    };
+fn found(log: &RobotLog, mapper: LogMapper) -> Result<MappedLog, Failure> {
     let template = "{bar:30} scan {pos} of {len}, {eta} to go";
     let progress = bar(u32::try_from(log.scans.len()).unwrap_or(u32::MAX), template);
-    let found = log.map(system, &log.odometry(), |scans| {
+    let found = log.map(mapper, &log.odometry(), |scans| {
         progress.set_position(scans as u64);
     });
     progress.finish_and_clear();
     found.map_err(anyhow::Error::from_boxed).or_bad_input()
-}
-
-fn refused(why: &str) -> Failure {
-    Failure::BadInput(anyhow!(
-        "{why}, which a log does not have: give --system diktiometry, cpm or gngslam"
-    ))
 }
 
 /// Results to write.

@@ -14,8 +14,8 @@ use tolman_systems::origin_of;
 
 use crate::cli::ground::{Ground, required};
 use crate::cli::kind::Kind;
-use crate::cli::{App, Failure, OrBadInput, file};
-use crate::system::{LearnedMap, MapText};
+use crate::cli::{App, Failure, OrBadInput, file, of_registry};
+use tolman_arena::registry::{LearnedMap, MapText};
 
 /// Makes a map from a robot's log of laser scans; with a subcommand, shows, checks or plans on a
 /// learned map
@@ -41,7 +41,7 @@ impl Arguments {
     ) -> Result<(), Failure> {
         match self.verb {
             Some(verb) => verb.carry_out(app, out),
-            None => log::carry_out(&self.log, out),
+            None => log::carry_out(app, &self.log, out),
         }
     }
 }
@@ -58,7 +58,7 @@ enum Verb {
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
-  tolman learn --system cpm --maze mazes/cpm-1.maze --out map.json
+  tolman learn --system cpm-better --maze mazes/cpm-1.maze --out map.json
   tolman map show map.json --maze mazes/cpm-1.maze --svg map.svg")]
 pub(in crate::cli) struct Show {
     /// Map file, written by `tolman learn`
@@ -77,7 +77,7 @@ pub(in crate::cli) struct Show {
 #[derive(clap::Args)]
 #[command(after_help = "\
 Example:
-  tolman learn --system diktiometry --maze mazes/j-long.maze --out j-survey.json
+  tolman learn --system diktiometry-better --maze mazes/j-long.maze --out j-survey.json
   tolman map plan j-survey.json --from 0 --to 3")]
 pub(in crate::cli) struct Plan {
     /// Map file, written by `tolman learn`
@@ -96,7 +96,7 @@ pub(in crate::cli) struct Plan {
     group(required()),
     after_help = "\
 Example:
-  tolman learn --system cpm --maze mazes/cpm-1.maze --out map.json
+  tolman learn --system cpm-better --maze mazes/cpm-1.maze --out map.json
   tolman map check map.json --maze mazes/cpm-1.maze"
 )]
 pub(in crate::cli) struct Check {
@@ -121,6 +121,7 @@ fn show(app: &App<'_>, arguments: &Show, out: &mut dyn Write) -> Result<(), Fail
     if let Some(path) = &arguments.svg {
         let (world, terrain) = arguments.ground.read()?;
         let drawing = map.drawing(&terrain);
+        let drawing = drawing.map_err(of_registry);
         let drawing = drawing.map_err(|error| match world == text.origin.world {
             true => error,
             false => error.context(format!(
@@ -143,7 +144,8 @@ fn show(app: &App<'_>, arguments: &Show, out: &mut dyn Write) -> Result<(), Fail
 
 fn plan(app: &App<'_>, arguments: &Plan, out: &mut dyn Write) -> Result<(), Failure> {
     let (_, map) = read(app, &arguments.file)?;
-    let plan = map.plan(arguments.from, arguments.to).or_bad_input()?;
+    let plan = map.plan(arguments.from, arguments.to);
+    let plan = plan.map_err(of_registry).or_bad_input()?;
     let Some(lines) = plan else {
         return Err(Failure::Failed(anyhow!(
             "no way is known on the map in {}; learn longer",
@@ -162,7 +164,8 @@ fn plan(app: &App<'_>, arguments: &Plan, out: &mut dyn Write) -> Result<(), Fail
 fn check(app: &App<'_>, arguments: &Check, out: &mut dyn Write) -> Result<(), Failure> {
     let (text, map) = read(app, &arguments.file)?;
     let (_, terrain) = arguments.ground.read()?;
-    match map.complaint(&terrain).or_bad_input()? {
+    let complaint = map.complaint(&terrain);
+    match complaint.map_err(of_registry).or_bad_input()? {
         None => Ok(writeln!(out, "{} is right", text.name)?),
         Some(complaint) => Err(Failure::Failed(anyhow!(
             "the map in {} is wrong or unfinished: {complaint}",
@@ -173,7 +176,8 @@ fn check(app: &App<'_>, arguments: &Check, out: &mut dyn Write) -> Result<(), Fa
 
 fn read(app: &App<'_>, path: &Path) -> Result<(MapText, Box<dyn LearnedMap>), Failure> {
     let text = map_text(path)?;
-    let map = app.system_of(&text)?.map(&text).or_bad_input()?;
+    let map = app.system_of(&text)?.map(&text);
+    let map = map.map_err(of_registry).or_bad_input()?;
     Ok((text, map))
 }
 

@@ -5,11 +5,12 @@ use std::path::PathBuf;
 
 use anyhow::{Context, anyhow};
 use tolman_arena::cpm::{WalkPair, distinctness, epuck_course};
+use tolman_arena::registry::Schooling;
 use tolman_maps::cpm::Sense;
 
 use super::{Failure, OrBadInput, name, read};
+use crate::cli::of_registry;
 use crate::cli::share::share;
-use crate::systems;
 
 /// Lets an e-puck walk every fragment of mazes both ways; exits 2 if two of them look alike
 #[derive(clap::Args)]
@@ -32,7 +33,7 @@ pub(crate) struct Arguments {
 }
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let patterns = systems::patterns_of_epuck(arguments.seed)?;
+    let patterns = Schooling::of_epuck_by(arguments.seed).map_err(of_registry)?;
     for path in &arguments.mazes {
         let course = epuck_course(&name(path), read(path)?);
         let course = course.with_context(|| name(path)).or_bad_input()?;

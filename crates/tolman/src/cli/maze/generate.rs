@@ -76,7 +76,7 @@ pub(super) fn carry_out(
 }
 
 fn list(app: &App<'_>, out: &mut dyn Write) -> Result<(), Failure> {
-    for family in &app.catalogue.families {
+    for family in &app.registry().families {
         let Family {
             name, about, hard, ..
         } = family;

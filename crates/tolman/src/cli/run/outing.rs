@@ -24,8 +24,8 @@ use crate::cli::looks::Looks;
 use crate::cli::picture;
 use crate::cli::replay_file;
 use crate::cli::unfinished::{Done, GoingOn};
-use crate::cli::{Failure, OrBadInput, file};
-use crate::start::Start;
+use crate::cli::{Failure, OrBadInput, file, of_registry};
+use tolman_arena::registry::Start;
 
 /// Settings of a robot's run, and the files that are written.
 #[derive(clap::Args)]
@@ -93,7 +93,8 @@ pub(in crate::cli) fn carry_out(
     let robot = calibrated();
     let course = course(&arguments.ground)?;
     let random = || Some(episode::random_start(&course, &body(), arguments.seed));
-    let start = arguments.start.on(&course, random).or_bad_input()?;
+    let start = arguments.start.on(&course, random);
+    let start = start.map_err(of_registry).or_bad_input()?;
     let trial = Trial {
         course: &course,
         robot: robot.clone(),

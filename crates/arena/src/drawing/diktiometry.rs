@@ -3,7 +3,7 @@
 use tolman_geom::Point;
 use tolman_sim::Bounds;
 
-use tolman_arena::diktiometry::{Office, Survey};
+use crate::diktiometry::{Office, Survey};
 use tolman_draw::{
     Drawing, EdgeLine, FloorPlan, GraphEdge, GraphNode, GraphPicture, KeyMark, Region, Series,
 };

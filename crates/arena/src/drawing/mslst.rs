@@ -2,27 +2,12 @@
 
 use tolman_maps::mslst_graph::NodeZone;
 
-use crate::plan::model_scan;
-use tolman_arena::course::Course;
-use tolman_draw::{Drawing, GraphEdge, GraphNode, GraphPicture, KeyMark, NodeMark, Series, Tiles};
+use crate::course::Course;
+use tolman_draw::{Drawing, GraphEdge, GraphNode, GraphPicture, KeyMark, NodeMark, Series};
 use tolman_systems::mslst::Learned;
 
 /// Width of a plan, user units.
 const WIDTH: f64 = 420.0;
-
-/// Returns the paper's figure 3: every model scan, with north up, and the number of its nodes.
-#[must_use]
-pub fn states(learned: &Learned) -> Drawing {
-    let mut tiles = Tiles::new(6);
-    for (state, model) in (0_u32..).zip(learned.map.states.models()) {
-        let nodes = learned.map.graph.nodes().iter();
-        let count = nodes.filter(|node| node.state == state).count();
-        let drawing = model_scan(model.iter().copied(), 96.0, format!("Model scan {state}."));
-        tiles.tile(format!("{state}: {count} nodes"), drawing);
-    }
-    let count = learned.map.states.models().len();
-    tiles.drawing(format!("The {count} states of a map."))
-}
 
 /// Number of Phase II actions in the paper's picture of the graph.
 pub const SHOWN_ACTIONS: u32 = 500;
@@ -65,7 +50,7 @@ fn over_maze(course: &Course, learned: &Learned, shown: usize, radius: f64) -> D
     }
     let destination = |node: &&tolman_maps::mslst_graph::Node| node.zone == NodeZone::Destination;
     let at_goal = nodes.iter().filter(destination).count();
-    let mut plan = crate::plan_of_course(course, WIDTH);
+    let mut plan = super::plan_of_course(course, WIDTH);
     plan.graph(&graph);
     let of = match nodes.len() == all.len() {
         true => format!("{} nodes", nodes.len()),

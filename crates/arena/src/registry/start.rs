@@ -3,9 +3,10 @@
 use core::fmt;
 use core::str::FromStr;
 
-use anyhow::{Error, anyhow};
-use tolman_arena::course::Course;
 use tolman_geom::{Heading, Point, Pose};
+
+use crate::BoxError;
+use crate::course::Course;
 
 /// A start as `--start` gives it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,20 +24,25 @@ impl Start {
     ///
     /// # Errors
     /// If the maze marks no start, or no way leads on from there.
-    pub fn on(self, course: &Course, random: impl FnOnce() -> Option<Pose>) -> Result<Pose, Error> {
+    pub fn on(
+        self,
+        course: &Course,
+        random: impl FnOnce() -> Option<Pose>,
+    ) -> Result<Pose, BoxError> {
         let name = &course.name;
         match self {
-            Self::Random => random().ok_or_else(|| anyhow!("{name} has no way to a goal")),
+            Self::Random => random().ok_or_else(|| format!("{name} has no way to a goal").into()),
             Self::Marked => {
                 let start = course.start();
-                start.map_err(|_| anyhow!("{name} marks no start; give --start random or X,Y"))
+                start.map_err(|_| format!("{name} marks no start; give --start random or X,Y").into())
             }
             Self::At(pose) if course.leads_on(pose.position) => Ok(pose),
-            Self::At(Pose { position, .. }) => Err(anyhow!(
+            Self::At(Pose { position, .. }) => Err(format!(
                 "no way leads from ({}, {}) m to the destination of {name}; start in a corridor that leads there",
                 position.x,
                 position.y
-            )),
+            )
+            .into()),
         }
     }
 }

@@ -1,40 +1,64 @@
 use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
 
-use anyhow::{Context, Error, anyhow};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
-use tolman_arena::course::{Course, Terrain};
-use tolman_arena::diktiometry::{
-    MapScore, Office, OfficeConfig, Survey, SurveyConfig, SurveyFile, SurveyorConfig, office_robot,
-};
-use tolman_arena::episode::START_STREAM;
-use tolman_arena::pioneer::{CAMERA_PIONEER, LASER_PIONEER};
-use tolman_arena::run::InRun;
-use tolman_arena::{BoxError, Outing, RobotFacts, Sent};
 use tolman_draw::Drawing;
 use tolman_geom::{Heading, Interval, Point, Pose};
 use tolman_maps::diktiometry::{
     Action, DecidingWalk, JournalLength, Link, Observer, OpenPair, PlaceId,
 };
 use tolman_maze::Direction;
-use tolman_papers::diktiometry::drawing::map_over_world;
 use tolman_robot::{Guess, Landmark, MapView, Mapper, Scan, SensesLandmarks, Standing, Task};
 use tolman_sim::Bounds;
-use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig, LandmarkSpot, Wayfinder};
+use tolman_systems::diktiometry::{
+    Diktiometer, DiktiometerConfig, LandmarkSpot, LaserEye, Wayfinder,
+};
 use tolman_systems::stream;
 
-use crate::start::Start;
-use crate::system::{LearnedMap, MapText, Setup, SystemEntry};
+use crate::contest::{Pathfinder, PlaceRule};
+use crate::course::{Course, Terrain};
+use crate::diktiometry::{
+    MapScore, Office, OfficeConfig, PlaceCue, Survey, SurveyConfig, SurveyFile, SurveyorConfig,
+    mapper, office_robot,
+};
+use crate::drawing::diktiometry::map_over_world;
+use crate::episode::START_STREAM;
+use crate::registry::{
+    LearnedMap, LogMapper, MapText, RobotEntry, RobotKind, Setup, Start, SystemEntry, because,
+};
+use crate::run::InRun;
+use crate::{BoxError, Outing, RobotFacts, Sent};
 
 /// The [diktiometry](tolman_systems::diktiometry) on a Pioneer in an office.
 #[derive(Clone, Copy, Debug)]
-pub struct DiktiometryEntry;
+pub(super) struct DiktiometryEntry {
+    is_paper: bool,
+}
 
-const PRESETS: [(&str, &str); 1] = [(
-    "paper",
-    "As the paper's robot, which heeds advice in 30 % of the cases",
-)];
+impl DiktiometryEntry {
+    /// With the paper's rules.
+    pub(super) const PAPER: Self = Self { is_paper: true };
+    /// With a journal of all its moves; it also merges places by their looks and by turns.
+    pub(super) const BETTER: Self = Self { is_paper: false };
+}
+
+const PRESETS: [(&str, &str); 2] = [
+    (
+        "paper",
+        "As the paper's robot, which heeds advice in 30 % of the cases",
+    ),
+    (
+        ARENA,
+        "As in the arena: until nothing is left to learn, with eight colours for a camera",
+    ),
+];
+
+/// Preset for contests.
+const ARENA: &str = "arena";
+
+/// Number of colours of the walls in the arena, for robots with a camera.
+const COLOURS: u32 = 8;
 
 /// Number of moves between two questions whether the map grows without end.
 const ASKED: u32 = 50;
@@ -80,31 +104,81 @@ struct Driving {
 
 impl SystemEntry for DiktiometryEntry {
     fn name(&self) -> &'static str {
-        "diktiometry"
+        match self.is_paper {
+            true => "diktiometry",
+            false => "diktiometry-better",
+        }
+    }
+
+    fn title(&self) -> &'static str {
+        match self.is_paper {
+            true => "Diktiometry",
+            false => "Diktiometry Better",
+        }
     }
 
     fn about(&self) -> &'static str {
-        "Maps places that look alike, with bounds on where they lie, and advises the planner"
+        match self.is_paper {
+            true => "maps places with bounds on where they lie, and advises the planner",
+            false => {
+                "maps places that look alike, with a journal of all its moves, and advises the planner"
+            }
+        }
+    }
+
+    fn is_paper(&self) -> bool {
+        self.is_paper
+    }
+
+    fn needs(&self) -> &'static str {
+        "needs a compass and a camera that sees colours, or a laser ring"
+    }
+
+    fn kinds(&self) -> &'static [RobotKind] {
+        &[RobotKind::Camera, RobotKind::Laser]
+    }
+
+    fn own_robot(&self) -> &'static str {
+        RobotEntry::CAMERA_PIONEER.name
     }
 
     fn presets(&self) -> &'static [(&'static str, &'static str)] {
         &PRESETS
     }
 
-    fn robots(&self) -> &'static [&'static str] {
-        &[CAMERA_PIONEER, LASER_PIONEER]
+    fn arena_preset(&self) -> Option<&'static str> {
+        Some(ARENA)
     }
 
-    fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
-        setup.settings.preset(PRESETS)?;
+    fn log_mapper(&self) -> Option<LogMapper> {
+        (!self.is_paper).then_some(LogMapper::Diktiometry)
+    }
+
+    fn why_no_log(&self) -> &'static str {
+        "it keeps no journal of its moves: give diktiometry-better"
+    }
+
+    fn drives(&self) -> bool {
+        true
+    }
+
+    fn places(&self) -> PlaceRule {
+        PlaceRule::Corners
+    }
+
+    fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
+        if setup
+            .settings
+            .preset(PRESETS.map(|(name, _)| (name, name)))?
+            == ARENA
+        {
+            return self.sent(setup);
+        }
         if setup.start.is_some_and(|start| start != Start::Random) {
-            return Err(anyhow!(
-                "the diktiometry begins at a random place: leave --start out"
-            ));
+            return Err("the diktiometry begins at a random place: leave --start out".into());
         }
         if let Some(map) = setup.from {
-            let mut before = SurveyFile::from_json(&map.text).with_context(|| map.name.clone())?;
-            setup.robot(&[before.config.robot.name()])?;
+            let mut before = read(map)?;
             let going_on: GoingOn = setup.settings.over(&GoingOn {
                 moves: LEARNING.moves,
                 heed: before.config.heed,
@@ -125,10 +199,7 @@ impl SystemEntry for DiktiometryEntry {
             }));
         }
         let learning: Learning = setup.settings.over(&LEARNING)?;
-        let robot = match setup.robot(self.robots())? {
-            LASER_PIONEER => SurveyorConfig::mslst(),
-            _ => SurveyorConfig::paper(),
-        };
+        let robot = surveyor(&setup.robot);
         let mut furniture = OfficeConfig::bare();
         furniture.doorway_share = learning.doorways;
         furniture.colours = learning.colours;
@@ -139,7 +210,9 @@ impl SystemEntry for DiktiometryEntry {
         let mut config = SurveyConfig::of(&office, robot, learning.moves);
         config.heed = learning.heed;
         config.mapper.journal = JournalLength::All;
-        config.mapper.restructuring.merge_by_looks_and_turns();
+        if !self.is_paper {
+            config.mapper.restructuring.merge_by_looks_and_turns();
+        }
         let survey = Survey::new(&office, config, setup.seed)?;
         Ok(Box::new(Surveying {
             survey,
@@ -151,13 +224,11 @@ impl SystemEntry for DiktiometryEntry {
         }))
     }
 
-    fn driver(&self, maps: &[MapText], setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
+    fn driver(&self, maps: &[MapText], setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
         let [map] = maps else {
-            return Err(anyhow!(
-                "the diktiometry drives by one map: give --map once"
-            ));
+            return Err("the diktiometry drives by one map: give --map once".into());
         };
-        let file = SurveyFile::from_json(&map.text).with_context(|| map.name.clone())?;
+        let file = read(map)?;
         let heed = file.config.heed;
         let Driving { heed } = setup.settings.over(&Driving { heed })?;
         let SurveyFile {
@@ -176,20 +247,21 @@ impl SystemEntry for DiktiometryEntry {
         let steps = setup.steps.unwrap_or(100_000);
         // The goal is where the robot came to it while learning.
         let goal = file.goal();
-        let name = setup.robot(&[config.robot.name()])?;
+        let name = config.robot.name();
         if let Some(start) = setup.start {
             let rng = &mut stream(setup.seed, START_STREAM);
             let random = || Some(office.random_start(&robot.body(), rng));
             let start = start.on(&office.course, random)?;
             if !office.is_in_corridor(start.position) {
                 let Point { coords: at, .. } = start.position;
-                return Err(anyhow!(
+                return Err(format!(
                     "({}, {}) m lies between the corridors, which are {} m wide and {} m apart; start in one",
                     at.x,
                     at.y,
                     office.config().corridor_width,
                     office.config().pitch()
-                ));
+                )
+                .into());
             }
             let body = office_robot(&office, robot, start, setup.seed)?;
             let map = observer.clone();
@@ -209,11 +281,78 @@ impl SystemEntry for DiktiometryEntry {
         Ok(Box::new(sent))
     }
 
-    fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, Error> {
-        let file = SurveyFile::from_json(&map.text).with_context(|| map.name.clone())?;
+    fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, BoxError> {
+        let file = read(map)?;
         // Showing a map takes no random numbers.
         let survey = file.survey(0)?;
         Ok(Box::new(Surveyed { file, survey }))
+    }
+}
+
+fn read(map: &MapText) -> Result<SurveyFile, BoxError> {
+    SurveyFile::from_json(&map.text).map_err(|error| because(&map.name, error))
+}
+
+/// Returns the robot with its noise.
+fn surveyor(robot: &RobotEntry) -> SurveyorConfig {
+    match robot.kind() {
+        RobotKind::Laser => {
+            let mut config = SurveyorConfig::mslst();
+            config.pioneer = robot.laser_config();
+            config
+        }
+        _ => SurveyorConfig::paper(),
+    }
+}
+
+impl DiktiometryEntry {
+    /// Returns the system that learns until nothing is left, and finds its way after it was put
+    /// down anywhere.
+    fn sent(self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
+        let furniture = OfficeConfig {
+            colours: match setup.robot.kind() {
+                RobotKind::Camera => COLOURS,
+                _ => 1,
+            },
+            seed: setup.seed,
+            ..OfficeConfig::bare()
+        };
+        let maze = &setup.terrain.maze(OFFICE)?.maze;
+        let mut office = Office::new(maze, &furniture)?.named(setup.world);
+        office.course = setup.with_door(office.course)?;
+        let config = surveyor(&setup.robot);
+        let made = setup.condition.surveyor(config.clone(), setup.seed);
+        let random = || {
+            let rng = &mut stream(setup.seed, START_STREAM);
+            Some(office.random_start(&config.body(), rng))
+        };
+        let start = setup.start(&office.course, Start::Random, random)?;
+        let pose = Pose::new(start.position, Heading::NORTH);
+        let mut mapping = mapper(&office, &config);
+        if !self.is_paper {
+            mapping.journal = JournalLength::All;
+            mapping.restructuring.merge_by_looks_and_turns();
+        }
+        let routines = config.routines(furniture.corridor_width);
+        let paper = DiktiometerConfig::paper(routines, mapping);
+        let (course, seed) = (office.course.clone(), setup.seed);
+        let steps = setup.steps.unwrap_or(u32::MAX);
+        let origin = setup.origin(&course);
+        Ok(match config.sight {
+            PlaceCue::Laser { columns } => {
+                let robot = setup.robot.laser_model(made.laser_robot())?;
+                let robot = course.robot_at(pose, robot, seed)?;
+                let system = Pathfinder::learning(paper, LaserEye { columns }, seed);
+                let sent = Sent::new(course, robot, steps, system);
+                Box::new(sent.keeping_its_view(self.name(), origin))
+            }
+            _ => {
+                let robot = office_robot(&office, &made, pose, seed)?;
+                let system = Pathfinder::learning(paper, config.sight, seed);
+                let sent = Sent::new(course, robot, steps, system);
+                Box::new(sent.keeping_its_view(self.name(), origin))
+            }
+        })
     }
 }
 
@@ -408,7 +547,7 @@ impl LearnedMap for Surveyed {
             })
         });
         json!({
-            "system": DiktiometryEntry.name(),
+            "system": "diktiometry-better",
             "maze": file.origin.world,
             "moves": file.observer.moves(),
             "here": file.observer.place().0,
@@ -420,17 +559,17 @@ impl LearnedMap for Surveyed {
         })
     }
 
-    fn drawing(&self, _terrain: &Terrain) -> Result<Drawing, Error> {
+    fn drawing(&self, _terrain: &Terrain) -> Result<Drawing, BoxError> {
         Ok(map_over_world(&self.file.office, &self.survey))
     }
 
-    fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, Error> {
+    fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, BoxError> {
         let observer = &self.file.observer;
         let paths = &observer.map().paths;
         let place = |number: u32| {
             paths.resolve(PlaceId(number)).ok_or_else(|| {
                 let known: Vec<String> = paths.places().map(|(id, _)| id.0.to_string()).collect();
-                anyhow!(
+                format!(
                     "there is no place {number}; choose one of: {}",
                     known.join(", ")
                 )
@@ -441,7 +580,7 @@ impl LearnedMap for Surveyed {
             (Some(to), _) => (place(to)?, None),
             (None, Some(LandmarkSpot::Place(goal))) => (goal, None),
             (None, Some(LandmarkSpot::Way(last, way))) => (last, Some(way)),
-            (None, None) => return Err(anyhow!("the goal is not on this map: give --to PLACE")),
+            (None, None) => return Err("the goal is not on this map: give --to PLACE".into()),
         };
         let Some(plan) = observer.plan(from, to) else {
             return Ok(None);
@@ -465,7 +604,7 @@ impl LearnedMap for Surveyed {
         Ok(Some(steps.chain(beyond).collect()))
     }
 
-    fn complaint(&self, _terrain: &Terrain) -> Result<Option<String>, Error> {
+    fn complaint(&self, _terrain: &Terrain) -> Result<Option<String>, BoxError> {
         Ok(complaint(&self.survey))
     }
 }

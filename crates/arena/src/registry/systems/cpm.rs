@@ -1,84 +1,139 @@
-use anyhow::{Context, Error, anyhow};
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
 use serde_json::{Value, json};
-use tolman_arena::course::{Course, Terrain};
-use tolman_arena::cpm::{
-    Layout, SimulatedEpuck, TrueFragments, epuck, epuck_course, epuck_course_on,
-    is_whole_map_right, learn, ring_measures, walker_config,
-};
-use tolman_arena::pioneer::{CoursePioneer, LASER_PIONEER, body, calibrated};
-use tolman_arena::{BoxError, HasSimulated, Outing, Sent};
 use tolman_draw::Drawing;
 use tolman_geom::Pose;
 use tolman_maps::cpm::{CpMap, JunctionId, PlanLeg, Turn};
 use tolman_maze::{Cell, Maze};
-use tolman_papers::cpm::drawing;
 use tolman_robot::{Landmark, Task};
 use tolman_sim::robots::Epuck;
 use tolman_systems::Origin;
 use tolman_systems::cpm::{
-    self, CommonPatterns, CpmConfig, CpmRobot, Lesson, MapFile, Mode, RingAsEpuck, Walker,
-    WalkerConfig, soinn, wander,
+    self, CommonPatterns, CpmConfig, CpmRobot, MapFile, Mode, RingAsEpuck, WalkerConfig,
 };
 
-use crate::start::Start;
-use crate::system::{LearnedMap, MapText, Setup, SystemEntry, pioneer_at};
+use crate::course::{Course, Terrain};
+use crate::cpm::{
+    Layout, TrueFragments, epuck, epuck_course_on, is_whole_map_right, patience, ring_measures,
+    walker_config,
+};
+use crate::drawing;
+use crate::pioneer::{CORRIDOR_WIDTH, body};
+use crate::registry::{
+    LearnedMap, LogMapper, MapText, Registry, RobotEntry, RobotKind, Setup, Start, SystemEntry,
+    because,
+};
+use crate::{BoxError, HasSimulated, Outing, Sent};
 
-/// [`cpm`] on the e-puck, or on the laser Pioneer used as one.
+/// [`cpm`] on the e-puck, or on a laser robot used as one.
 #[derive(Clone, Copy, Debug)]
-pub struct CpmEntry;
+pub(super) struct CpmEntry {
+    is_paper: bool,
+}
 
-const PRESETS: [(&str, &str); 3] = [
+impl CpmEntry {
+    /// CPM online, as in the paper.
+    pub(super) const PAPER: Self = Self { is_paper: true };
+    /// CPM with dead reckoning and several hypotheses.
+    pub(super) const BETTER: Self = Self { is_paper: false };
+}
+
+const PAPERS_PRESETS: [(&str, &str); 1] = [(
+    "paper",
+    "As the paper's robot, online: by common patterns alone",
+)];
+
+const PRESETS: [(&str, &str); 2] = [
     (
-        "better",
+        "learned",
         "By dead reckoning too, for fragments that look alike",
     ),
     (
-        "faithful",
-        "As the paper's robot, online: by common patterns alone",
-    ),
-    (
         "unlearned",
-        "As better, without a learning maze: patterns are learned on the way",
+        "As learned, without a learning maze: patterns are learned on the way",
     ),
 ];
 
-/// Returns the configurations of the presets.
-fn modes() -> [Mode; 3] {
-    [
-        Mode::Reckoned(CpmConfig::robust()),
-        Mode::Paper(CpmConfig::online()),
-        Mode::Unlearned(CpmConfig::robust()),
-    ]
-}
-
-const EPUCK: &str = "e-puck";
-
-/// Maze in which common patterns are learned.
-const LEARNING_MAZE: &str = include_str!("../../mazes/cpm-learning.maze");
-
 impl SystemEntry for CpmEntry {
     fn name(&self) -> &'static str {
-        "cpm"
+        match self.is_paper {
+            true => "cpm",
+            false => "cpm-better",
+        }
+    }
+
+    fn title(&self) -> &'static str {
+        match self.is_paper {
+            true => "CPM",
+            false => "CPM Better",
+        }
     }
 
     fn about(&self) -> &'static str {
-        "Turns paths into sequences of common patterns, and reasons about junctions"
+        match self.is_paper {
+            true => "turns paths into sequences of common patterns, and reasons about junctions",
+            false => {
+                "adds dead reckoning and several hypotheses to common patterns; corridors alone"
+            }
+        }
+    }
+
+    fn is_paper(&self) -> bool {
+        self.is_paper
+    }
+
+    fn needs(&self) -> &'static str {
+        "needs infrared sensors or a plain laser ring"
+    }
+
+    fn kinds(&self) -> &'static [RobotKind] {
+        &[RobotKind::Epuck, RobotKind::Laser]
+    }
+
+    fn own_robot(&self) -> &'static str {
+        RobotEntry::EPUCK.name
     }
 
     fn presets(&self) -> &'static [(&'static str, &'static str)] {
-        &PRESETS
+        match self.is_paper {
+            true => &PAPERS_PRESETS,
+            false => &PRESETS,
+        }
     }
 
-    fn robots(&self) -> &'static [&'static str] {
-        &[EPUCK, LASER_PIONEER]
+    fn log_mapper(&self) -> Option<LogMapper> {
+        (!self.is_paper).then_some(LogMapper::Cpm)
     }
 
-    fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
+    fn why_no_log(&self) -> &'static str {
+        "it tells ways apart by patterns of infrared readings: give cpm-better"
+    }
+
+    fn drives(&self) -> bool {
+        true
+    }
+
+    fn abstains(&self, maze: &Maze) -> Option<String> {
+        let cell = maze.reachable().find(|cell| maze.is_room(*cell))?;
+        Some(format!(
+            "it follows corridors, and there is an open square of 2 × 2 cells at {cell}"
+        ))
+    }
+
+    fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
         setup.anew(self.name())?;
-        let names = PRESETS.map(|(name, _)| name);
-        let mode = setup.settings.preset(names.into_iter().zip(modes()))?;
+        let robust = CpmConfig::robust();
+        let mode = match self.is_paper {
+            true => {
+                let names = PAPERS_PRESETS.map(|(name, _)| name);
+                setup
+                    .settings
+                    .preset(names.into_iter().zip([papers_mode(setup)]))?
+            }
+            false => {
+                let names = PRESETS.map(|(name, _)| name);
+                let modes = [Mode::Reckoned(robust), Mode::Unlearned(robust)];
+                setup.settings.preset(names.into_iter().zip(modes))?
+            }
+        };
         let config = setup.settings.over(&mode.config())?;
         let mode = mode.with(config);
         let ground = Ground::of(setup, mode, Start::Marked)?;
@@ -86,16 +141,16 @@ impl SystemEntry for CpmEntry {
         let cpm = match mode {
             Mode::Unlearned(_) => cpm::Cpm::unlearned(walker, config, setup.seed)?,
             Mode::Paper(_) | Mode::Reckoned(_) => {
-                let patterns = ground.patterns(setup.seed)?;
+                let patterns = ground.patterns(setup)?;
                 cpm::Cpm::new(walker, patterns, config, setup.seed)
             }
         };
         ground.send(setup, mode, cpm)
     }
 
-    fn driver(&self, maps: &[MapText], setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
+    fn driver(&self, maps: &[MapText], setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
         let files = read_all(maps)?;
-        let first = files.first().ok_or_else(|| anyhow!("no map is given"))?;
+        let first = files.first().ok_or("no map is given")?;
         let mode = first.mode;
         let config = setup.settings.over(&mode.config())?;
         let ground = Ground::of(setup, mode, Start::Random)?;
@@ -105,27 +160,40 @@ impl SystemEntry for CpmEntry {
         ground.send(setup, mode, cpm)
     }
 
-    fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, Error> {
-        let file = MapFile::from_json(&map.text).with_context(|| map.name.clone())?;
-        Ok(Box::new(file))
+    fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, BoxError> {
+        Ok(Box::new(read(map)?))
     }
 }
 
+/// Returns the configuration of the paper's system. It does not notice that its map grows without
+/// end; its patience does.
+fn papers_mode(setup: &Setup<'_>) -> Mode {
+    let mut config = CpmConfig::online();
+    if let Terrain::Maze(file) = setup.terrain {
+        config.most_traversals = patience(&file.maze);
+    }
+    Mode::Paper(config)
+}
+
+fn read(map: &MapText) -> Result<MapFile, BoxError> {
+    MapFile::from_json(&map.text).map_err(|error| because(&map.name, error))
+}
+
 /// Returns the maps of all files, which must use the same patterns.
-fn read_all(maps: &[MapText]) -> Result<Vec<MapFile>, Error> {
+fn read_all(maps: &[MapText]) -> Result<Vec<MapFile>, BoxError> {
     let mut files: Vec<MapFile> = Vec::new();
     for map in maps {
-        let file = MapFile::from_json(&map.text).with_context(|| map.name.clone())?;
+        let file = read(map)?;
         let version = |file: &MapFile| file.patterns.dictionary().version();
         if files
             .first()
             .is_some_and(|first| version(first) != version(&file))
         {
-            return Err(anyhow!(
-                "{} is written in other patterns than {}: learn both with the same --seed, and no --preset unlearned",
-                map.name,
-                maps[0].name
-            ));
+            return Err(format!(
+                "{} is written in other patterns than {}: learn both again, without --preset unlearned",
+                map.name, maps[0].name
+            )
+            .into());
         }
         files.push(file);
     }
@@ -134,24 +202,24 @@ fn read_all(maps: &[MapText]) -> Result<Vec<MapFile>, Error> {
 
 /// Course that a robot is sent into, and the configuration of its walk.
 struct Ground {
-    robot: &'static str,
     course: Course,
     start: Pose,
     walker: WalkerConfig,
 }
 
 impl Ground {
-    fn of(setup: &Setup<'_>, mode: Mode, usual: Start) -> Result<Self, Error> {
-        let robot = setup.robot(CpmEntry.robots())?;
-        let course = match robot {
-            EPUCK => epuck_course_on(setup.world, setup.terrain)?,
-            _ => setup.terrain.course(setup.world, &body())?,
+    fn of(setup: &Setup<'_>, mode: Mode, usual: Start) -> Result<Self, BoxError> {
+        let course = match setup.robot.kind() {
+            RobotKind::Epuck => setup.with_door(epuck_course_on(setup.world, setup.terrain)?)?,
+            _ => setup.course(&body(), CORRIDOR_WIDTH)?,
         };
-        let mut walker = walker(robot, course.corridor_width)?;
+        let mut walker = match setup.robot.kind() {
+            RobotKind::Epuck => walker_config(&epuck(), course.corridor_width)?,
+            _ => ring_measures(&setup.robot.laser_config(), course.corridor_width).walker_config(),
+        };
         walker.heading = mode.heading();
         let start = setup.start(&course, usual, || course.anywhere(setup.seed))?;
         Ok(Self {
-            robot,
             course,
             start,
             walker,
@@ -159,31 +227,30 @@ impl Ground {
     }
 
     /// Returns the common patterns that the robot learns in the learning maze (section 4.1).
-    fn patterns(&self, seed: u64) -> Result<CommonPatterns, Error> {
-        match self.robot {
-            EPUCK => patterns_of_epuck(seed),
-            _ => {
-                let maze = tolman_maze::read(LEARNING_MAZE)?.maze;
-                let course = Course::new("learning", maze, self.course.corridor_width)?;
-                let robot = ring_at(&course, course.start()?, seed)?;
-                let config = walker(self.robot, course.corridor_width)?;
-                let mut walker = Walker::new(robot, config);
-                let mut rng = ChaCha8Rng::seed_from_u64(seed);
-                let seen = wander(&mut walker, Lesson::Observations(300), &mut rng)?;
-                Ok(CommonPatterns::learn(&seen, soinn())?)
-            }
+    fn patterns(&self, setup: &Setup<'_>) -> Result<CommonPatterns, BoxError> {
+        match setup.robot.kind() {
+            RobotKind::Epuck => setup.schooling.of_epuck(),
+            _ => setup.schooling.of_pioneer(self.course.corridor_width),
         }
     }
 
-    fn send(self, setup: &Setup<'_>, mode: Mode, cpm: cpm::Cpm) -> Result<Box<dyn Outing>, Error> {
-        let (start, seed) = (self.start, setup.seed);
-        match self.robot {
-            EPUCK => {
-                let robot = epuck_at(&self.course, start, seed)?;
+    fn send(
+        self,
+        setup: &Setup<'_>,
+        mode: Mode,
+        cpm: cpm::Cpm,
+    ) -> Result<Box<dyn Outing>, BoxError> {
+        match setup.robot.kind() {
+            RobotKind::Epuck => {
+                let model = Epuck::new(setup.condition.epuck(epuck()))?;
+                let robot = self.course.robot_at(self.start, model, setup.seed)?;
                 Ok(self.send_with(robot, setup, mode, cpm))
             }
             _ => {
-                let robot = ring_at(&self.course, start, seed)?;
+                let config = setup.robot.laser_config();
+                let measures = ring_measures(&config, self.course.corridor_width);
+                let robot = setup.laser_at(&self.course, self.start, config)?;
+                let robot = RingAsEpuck::new(robot, measures)?;
                 Ok(self.send_with(robot, setup, mode, cpm))
             }
         }
@@ -193,7 +260,7 @@ impl Ground {
     where
         R: CpmRobot<Error: core::error::Error + Send + Sync + 'static> + HasSimulated + 'static,
     {
-        let origin = setup.origin(&self.course, self.robot);
+        let origin = setup.origin(&self.course);
         let course = self.course;
         let at_start = course.start().is_ok_and(|start| start == self.start);
         let steps = setup.steps.unwrap_or_else(|| patient(&course));
@@ -242,30 +309,6 @@ fn patient(course: &Course) -> u32 {
 /// goal.
 const FREE_STEPS: u32 = 500;
 
-fn walker(robot: &str, width: f64) -> Result<WalkerConfig, Error> {
-    Ok(match robot {
-        EPUCK => walker_config(&epuck(), width)?,
-        _ => ring_measures(&calibrated(), width).walker_config(),
-    })
-}
-
-fn epuck_at(course: &Course, start: Pose, seed: u64) -> Result<SimulatedEpuck, Error> {
-    Ok(course.robot_at(start, Epuck::new(epuck())?, seed)?)
-}
-
-/// Returns the laser Pioneer, used as an e-puck.
-fn ring_at(course: &Course, start: Pose, seed: u64) -> Result<RingAsEpuck<CoursePioneer>, Error> {
-    let pioneer = pioneer_at(course, start, seed)?;
-    let measures = ring_measures(&calibrated(), course.corridor_width);
-    Ok(RingAsEpuck::new(pioneer, measures)?)
-}
-
-/// Returns the common patterns that the e-puck learns in the learning maze (section 4.1).
-pub(crate) fn patterns_of_epuck(seed: u64) -> Result<CommonPatterns, Error> {
-    let course = epuck_course("learning", tolman_maze::read(LEARNING_MAZE)?)?;
-    Ok(learn(&course, seed)?)
-}
-
 fn keep(cpm: &cpm::Cpm, mode: Mode, origin: &Origin) -> Result<Option<String>, BoxError> {
     let Some(explorer) = cpm.explorer() else {
         return Ok(None);
@@ -299,13 +342,13 @@ fn complaint(map: &CpMap, maze: &Maze, at_start: bool) -> Option<String> {
         });
         return Some(format!(
             "{found} fragments for the {there_are} of the maze{}: the robot took some for others, or overlooked them; try \
-             --preset better, or another --seed",
+             --system cpm-better, or another --seed",
             room.unwrap_or_default()
         ));
     }
     if at_start && !is_whole_map_right(map, maze) {
         return Some(format!(
-            "its {found} fragments are not joined as those of the maze: try --preset better, or another --seed"
+            "its {found} fragments are not joined as those of the maze: try --system cpm-better, or another --seed"
         ));
     }
     None
@@ -349,7 +392,7 @@ impl LearnedMap for MapFile {
             map,
         } = self;
         json!({
-            "system": CpmEntry.name(),
+            "system": self.system(),
             "maze": world,
             "seed": seed,
             "mode": mode,
@@ -362,23 +405,27 @@ impl LearnedMap for MapFile {
         })
     }
 
-    fn drawing(&self, terrain: &Terrain) -> Result<Drawing, Error> {
+    fn drawing(&self, terrain: &Terrain) -> Result<Drawing, BoxError> {
         if let Terrain::Free(_) = terrain {
-            return Err(anyhow!(
+            return Err(
                 "a common-pattern map has no positions of its junctions, and a world of free walls has no cells to draw them \
                  over: leave --svg out; `tolman learn --replay` shows where the robot took them to be"
-            ));
+                    .into(),
+            );
         }
-        Ok(drawing::over_maze(&self.map, &course_of(self, terrain)?))
+        Ok(drawing::cpm::over_maze(
+            &self.map,
+            &course_of(self, terrain)?,
+        ))
     }
 
-    fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, Error> {
+    fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, BoxError> {
         let map = &self.map;
         let known = |id: u32| match map.junction(JunctionId(id)) {
             Some(_) => Ok(JunctionId(id)),
             None => {
                 let ids: Vec<String> = map.junctions().map(|(id, _)| id.0.to_string()).collect();
-                Err(anyhow!(
+                Err(format!(
                     "there is no junction {id}; choose one of: {}",
                     ids.join(", ")
                 ))
@@ -386,9 +433,7 @@ impl LearnedMap for MapFile {
         };
         let from = match from {
             Some(id) => known(id)?.port(0),
-            None => map
-                .start()
-                .ok_or_else(|| anyhow!("the map has no start: give --from"))?,
+            None => map.start().ok_or("the map has no start: give --from")?,
         };
         let to = to.map(known).transpose()?;
         let plan = map.plan(from, |id| match to {
@@ -409,14 +454,15 @@ impl LearnedMap for MapFile {
         Ok(plan.map(|plan| plan.legs.iter().map(step).collect()))
     }
 
-    fn complaint(&self, terrain: &Terrain) -> Result<Option<String>, Error> {
+    fn complaint(&self, terrain: &Terrain) -> Result<Option<String>, BoxError> {
         if let Terrain::Free(_) = terrain {
             return match unfinished(&self.map) {
                 Some(why) => Ok(Some(why)),
-                None => Err(anyhow!(
+                None => Err(
                     "the map has no unexplored ports, but nobody knows the true fragments of a world with free walls: \
                      drive by it with `tolman drive`"
-                )),
+                        .into(),
+                ),
             };
         }
         let course = course_of(self, terrain)?;
@@ -425,10 +471,13 @@ impl LearnedMap for MapFile {
 }
 
 /// Returns the maze that a map was learned in, prepared for the robot that learned it.
-fn course_of(file: &MapFile, terrain: &Terrain) -> Result<Course, Error> {
-    Ok(match &*file.origin.robot {
-        EPUCK => epuck_course_on(&file.origin.world, terrain)?,
-        _ => terrain.course(&file.origin.world, &body())?,
+fn course_of(file: &MapFile, terrain: &Terrain) -> Result<Course, BoxError> {
+    let robot = Registry::current().robot(&file.origin.robot);
+    Ok(match robot.map(|robot| robot.kind()) {
+        Some(RobotKind::Laser | RobotKind::Camera) => {
+            terrain.course(&file.origin.world, &body())?
+        }
+        _ => epuck_course_on(&file.origin.world, terrain)?,
     })
 }
 

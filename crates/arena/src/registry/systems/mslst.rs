@@ -1,54 +1,95 @@
 use alloc::sync::Arc;
 
-use anyhow::{Context, Error, anyhow};
 use serde_json::{Value, json};
-use tolman_arena::course::Terrain;
-use tolman_arena::pioneer::{LASER_PIONEER, body};
-use tolman_arena::{Outing, Sent};
 use tolman_draw::Drawing;
-use tolman_papers::mslst::drawing::whole_graph_over_maze;
 use tolman_systems::mslst::{self, GrowthRecord, Learned, MapFile, MslstConfig};
 use tolman_systems::{Actor, Origin};
 
-use crate::system::{LearnedMap, MapText, Setup, SystemEntry, laser_pioneer};
+use crate::course::{Course, Terrain};
+use crate::drawing::mslst::whole_graph_over_maze;
+use crate::pioneer::body;
+use crate::registry::{DemoWorld, LearnedMap, MapText, Setup, SystemEntry, because};
+use crate::{BoxError, Outing, Sent};
 
-/// [`mslst`] on the laser Pioneer.
+/// [`mslst`] on a laser robot.
 #[derive(Clone, Copy, Debug)]
-pub struct MslstEntry;
+pub(super) struct MslstEntry;
 
-const PRESETS: [(&str, &str); 2] = [
+const PRESETS: [(&str, &str); 3] = [
     (
         "large",
         "As in the paper's Large maze, with a threshold of 50",
     ),
     ("j", "As in the paper's J maze"),
+    (
+        ARENA,
+        "As in the arena: scans and actions by the number of cells",
+    ),
 ];
+
+/// Preset for contests.
+const ARENA: &str = "arena";
+
+/// Number of time steps per cell for which MSLST records scans in the arena. It also maps for this
+/// many actions per cell. Together they use most of the distance that it may drive.
+const SCANS_A_CELL: u32 = 10;
+const ACTIONS_A_CELL: u32 = 6;
+
+/// Returns the configuration for a contest.
+fn by_size(course: &Course) -> MslstConfig {
+    let cells = course.maze.reachable().count() as u32;
+    let mut config = MslstConfig::large(50.0);
+    config.scan_steps = SCANS_A_CELL * cells;
+    config.graph_actions = ACTIONS_A_CELL * cells;
+    config
+}
 
 impl SystemEntry for MslstEntry {
     fn name(&self) -> &'static str {
         "mslst"
     }
 
+    fn title(&self) -> &'static str {
+        "MSLST"
+    }
+
     fn about(&self) -> &'static str {
-        "Learns states from laser scans and a graph of them, and localizes by its recent history"
+        "learns states from laser scans and a graph of them, and localizes by its recent history"
+    }
+
+    fn is_paper(&self) -> bool {
+        true
     }
 
     fn presets(&self) -> &'static [(&'static str, &'static str)] {
         &PRESETS
     }
 
-    fn robots(&self) -> &'static [&'static str] {
-        &[LASER_PIONEER]
+    fn arena_preset(&self) -> Option<&'static str> {
+        Some(ARENA)
     }
 
-    fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
+    fn drives(&self) -> bool {
+        true
+    }
+
+    /// It is done when it has used up its actions.
+    fn claims(&self) -> bool {
+        false
+    }
+
+    fn demo(&self) -> (DemoWorld, u64) {
+        (DemoWorld::Small, 42)
+    }
+
+    fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
         setup.anew(self.name())?;
-        let presets = [MslstConfig::large(50.0), MslstConfig::j()];
+        let (course, robot, stack) = setup.laser_robot()?;
+        let presets = [MslstConfig::large(50.0), MslstConfig::j(), by_size(&course)];
         let names = PRESETS.map(|(name, _)| name);
         let preset = setup.settings.preset(names.into_iter().zip(presets))?;
         let config: MslstConfig = setup.settings.over(&preset)?;
-        let (course, robot, stack) = laser_pioneer(setup)?;
-        let origin = setup.origin(&course, LASER_PIONEER);
+        let origin = setup.origin(&course);
         let actor = Actor::seeded(mslst::Mslst::new(config), stack, setup.seed);
         let steps = setup.steps.unwrap_or(u32::MAX);
         let sent = Sent::new(course, robot, steps, actor)
@@ -80,15 +121,15 @@ impl SystemEntry for MslstEntry {
         Ok(Box::new(sent))
     }
 
-    fn driver(&self, maps: &[MapText], setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
+    fn driver(&self, maps: &[MapText], setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
         let [map] = maps else {
-            return Err(anyhow!("mslst drives by one map: give --map once"));
+            return Err("mslst drives by one map: give --map once".into());
         };
         let MapFile {
             config, learned, ..
-        } = MapFile::from_json(&map.text).with_context(|| map.name.clone())?;
+        } = MapFile::from_json(&map.text).map_err(|error| because(&map.name, error))?;
         let config: MslstConfig = setup.settings.over(&config)?;
-        let (course, robot, stack) = laser_pioneer(setup)?;
+        let (course, robot, stack) = setup.laser_robot()?;
         let sites = learned.survey.positions;
         let mslst = mslst::Mslst::knowing(Arc::new(learned.map), config);
         let actor = Actor::seeded(mslst, stack, setup.seed);
@@ -98,8 +139,8 @@ impl SystemEntry for MslstEntry {
         Ok(Box::new(sent))
     }
 
-    fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, Error> {
-        let file = MapFile::from_json(&map.text).with_context(|| map.name.clone())?;
+    fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, BoxError> {
+        let file = MapFile::from_json(&map.text).map_err(|error| because(&map.name, error))?;
         Ok(Box::new(file))
     }
 }
@@ -172,30 +213,28 @@ impl LearnedMap for MapFile {
         })
     }
 
-    fn drawing(&self, terrain: &Terrain) -> Result<Drawing, Error> {
+    fn drawing(&self, terrain: &Terrain) -> Result<Drawing, BoxError> {
         let course = terrain.course(&self.origin.world, &body())?;
         Ok(whole_graph_over_maze(&course, &self.learned))
     }
 
-    fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, Error> {
+    fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, BoxError> {
         if to.is_some() {
-            return Err(anyhow!(
-                "mslst's graph only leads to the goal: leave --to out"
-            ));
+            return Err("mslst's graph only leads to the goal: leave --to out".into());
         }
         let graph = &self.learned.map.graph;
         let from = from.unwrap_or(0);
         if graph.node(from).is_none() {
             let last = graph.len().saturating_sub(1);
-            return Err(anyhow!(
-                "there is no node {from}: they are numbered from 0 to {last}"
-            ));
+            return Err(
+                format!("there is no node {from}: they are numbered from 0 to {last}").into(),
+            );
         }
         let path = graph.path_to_destination(from, &[]);
         Ok(path.map(|path| path.iter().map(ToString::to_string).collect()))
     }
 
-    fn complaint(&self, _terrain: &Terrain) -> Result<Option<String>, Error> {
+    fn complaint(&self, _terrain: &Terrain) -> Result<Option<String>, BoxError> {
         Ok(complaint(&self.learned.map))
     }
 }

@@ -1,28 +1,27 @@
 use alloc::sync::Arc;
 
-use anyhow::{Context, Error, anyhow};
 use serde_json::{Value, json};
-use tolman_arena::course::{Course, Terrain};
-use tolman_arena::gngslam::LaidOver;
-use tolman_arena::mslst::better_config;
-use tolman_arena::pioneer::{LASER_PIONEER, body, calibrated};
-use tolman_arena::{Founding, Outing, Sent};
 use tolman_control::heading_of;
 use tolman_draw::Drawing;
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::scan_map::{ScanChart, ScanPlace};
 use tolman_maze::Direction;
-use tolman_papers::gngslam::drawing::places_over_world;
 use tolman_robot::Landmark;
 use tolman_systems::mslst::BetterMslst;
 use tolman_systems::mslst::better::{BetterConfig, BetterMap, BetterMapFile, BetterNavigator};
 use tolman_systems::{Actor, Origin};
 
-use crate::system::{LearnedMap, MapText, Setup, SystemEntry, laser_pioneer};
+use crate::course::{Course, Terrain};
+use crate::drawing::places_over_world;
+use crate::gngslam::LaidOver;
+use crate::mslst::better_config;
+use crate::pioneer::body;
+use crate::registry::{DemoWorld, LearnedMap, MapText, RobotEntry, Setup, SystemEntry, because};
+use crate::{BoxError, Founding, Outing, Sent};
 
 /// The [better MSLST](BetterMslst) on the laser Pioneer.
 #[derive(Clone, Copy, Debug)]
-pub struct MslstBetterEntry;
+pub(super) struct MslstBetterEntry;
 
 const PRESETS: [(&str, &str); 1] = [("pioneer", "As in the tables, row Better")];
 
@@ -40,30 +39,42 @@ impl SystemEntry for MslstBetterEntry {
         "mslst-better"
     }
 
+    fn title(&self) -> &'static str {
+        "MSLST Better"
+    }
+
     fn about(&self) -> &'static str {
-        "Draws walls from laser scans, explores where its map has gaps, and navigates by a belief over where it can stand"
+        "draws walls from laser scans, explores where its map has gaps, and navigates by a belief over where it can stand"
+    }
+
+    fn own_robot(&self) -> &'static str {
+        RobotEntry::NOISY_PIONEER.name
+    }
+
+    fn drives(&self) -> bool {
+        true
+    }
+
+    fn demo(&self) -> (DemoWorld, u64) {
+        (DemoWorld::Large, 8)
     }
 
     fn presets(&self) -> &'static [(&'static str, &'static str)] {
         &PRESETS
     }
 
-    fn robots(&self) -> &'static [&'static str] {
-        &[LASER_PIONEER]
-    }
-
-    fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
+    fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
         setup.anew(self.name())?;
         setup.settings.preset(PRESETS)?;
-        let (course, robot, stack) = laser_pioneer(setup)?;
-        let preset = better_config(course.corridor_width, &calibrated());
+        let (course, robot, stack) = setup.laser_robot()?;
+        let preset = better_config(course.corridor_width, &setup.robot.laser_config());
         let config: BetterConfig = setup.settings.over(&preset)?;
-        config.check().context("--set")?;
-        let origin = setup.origin(&course, LASER_PIONEER);
+        config.check().map_err(|error| because("--set", error))?;
+        let origin = setup.origin(&course);
         // The map's origin is where the robot starts; its axes are those of the compass.
         let start = robot.truth().pose.position;
         let world_from_map = Pose::new(start, Heading::EAST);
-        let brain = BetterMslst::new(config, calibrated().ring);
+        let brain = BetterMslst::new(config, setup.robot.laser_config().ring);
         let actor = Actor::seeded(brain, stack, setup.seed);
         let steps = setup
             .steps
@@ -89,19 +100,16 @@ impl SystemEntry for MslstBetterEntry {
         Ok(Box::new(sent))
     }
 
-    fn driver(&self, maps: &[MapText], setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
+    fn driver(&self, maps: &[MapText], setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
         let [map] = maps else {
-            return Err(anyhow!(
-                "{} drives by one map: give --map once",
-                self.name()
-            ));
+            return Err(format!("{} drives by one map: give --map once", self.name()).into());
         };
         let file = read(map)?;
         let config: BetterConfig = setup.settings.over(&file.config)?;
-        config.check().context("--set")?;
-        let (course, robot, stack) = laser_pioneer(setup)?;
+        config.check().map_err(|error| because("--set", error))?;
+        let (course, robot, stack) = setup.laser_robot()?;
         let laid = laid(&file);
-        let map = BetterMap::of(file.chart, calibrated().ring, &config)?;
+        let map = BetterMap::of(file.chart, setup.robot.laser_config().ring, &config)?;
         let actor = Actor::seeded(BetterNavigator::new(Arc::new(map)), stack, setup.seed);
         let steps = setup.steps.unwrap_or_else(|| course.step_limit());
         let sent = Sent::new(course, robot, steps, actor);
@@ -111,13 +119,13 @@ impl SystemEntry for MslstBetterEntry {
         }))
     }
 
-    fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, Error> {
+    fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, BoxError> {
         Ok(Box::new(read(map)?))
     }
 }
 
-fn read(map: &MapText) -> Result<BetterMapFile, Error> {
-    BetterMapFile::from_json(&map.text).with_context(|| map.name.clone())
+fn read(map: &MapText) -> Result<BetterMapFile, BoxError> {
+    BetterMapFile::from_json(&map.text).map_err(|error| because(&map.name, error))
 }
 
 /// Returns the true position of the robot when each place was made. The first place was made before
@@ -215,10 +223,10 @@ impl LearnedMap for BetterMapFile {
         })
     }
 
-    fn drawing(&self, terrain: &Terrain) -> Result<Drawing, Error> {
+    fn drawing(&self, terrain: &Terrain) -> Result<Drawing, BoxError> {
         let course = terrain.course(&self.origin.world, &body())?;
         let laid = laid(self).ok_or_else(|| {
-            anyhow!("the map has no true positions of its places, so it cannot be drawn over a world: leave --svg out")
+            "the map has no true positions of its places, so it cannot be drawn over a world: leave --svg out"
         })?;
         let mut map = self.chart.view();
         for place in &mut map.places {
@@ -227,11 +235,11 @@ impl LearnedMap for BetterMapFile {
         Ok(places_over_world(&course, &map))
     }
 
-    fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, Error> {
+    fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, BoxError> {
         let places = self.chart.places();
         let known = |place: u32| match (place as usize) < places.len() {
             true => Ok(place),
-            false => Err(anyhow!(
+            false => Err(format!(
                 "there is no place {place}: they are numbered from 0 to {}",
                 places.len().saturating_sub(1)
             )),
@@ -245,7 +253,7 @@ impl LearnedMap for BetterMapFile {
         Ok(way.map(|way| way.windows(2).map(|step| leg(places, step)).collect()))
     }
 
-    fn complaint(&self, terrain: &Terrain) -> Result<Option<String>, Error> {
+    fn complaint(&self, terrain: &Terrain) -> Result<Option<String>, BoxError> {
         let course = terrain.course(&self.origin.world, &body())?;
         let drawn = self.origin.drawing.as_ref();
         if drawn.is_some_and(|drawn| *drawn != course.drawing()) {
@@ -253,7 +261,7 @@ impl LearnedMap for BetterMapFile {
             return Ok(Some(why.to_owned()));
         }
         if self.sites.is_empty() {
-            return Err(anyhow!("the map has no true positions of its places"));
+            return Err("the map has no true positions of its places".into());
         }
         Ok(complaint(&self.chart, &self.sites, &course))
     }

@@ -8,8 +8,8 @@ use tolman_maze::Cell;
 use tolman_robot::Landmark;
 use tolman_sim::World;
 
-use tolman_arena::course::Course;
-use tolman_arena::cpm::{Fit, Layout};
+use crate::course::Course;
+use crate::cpm::{Fit, Layout};
 use tolman_draw::{
     Drawing, EdgeLine, FloorPlan, GraphEdge, GraphNode, GraphPicture, NodeMark, Series, ZoneStyle,
 };

@@ -2,7 +2,7 @@
 
 use alloc::collections::BTreeMap;
 
-use tolman_arena::course::Course;
+use crate::course::Course;
 use tolman_draw::{Drawing, GraphEdge, GraphNode, GraphPicture, KeyMark, NodeMark, Series};
 use tolman_robot::{Landmark, MapView};
 
@@ -32,7 +32,7 @@ pub fn places_over_world(course: &Course, map: &MapView) -> Drawing {
             graph.edge(GraphEdge::between(*from, *to));
         }
     }
-    let mut plan = crate::plan_of_course(course, WIDTH);
+    let mut plan = super::plan_of_course(course, WIDTH);
     plan.graph(&graph);
     plan.key(KeyMark::Ring, Series(0), format!("{} places", drawn.len()));
     plan.key(KeyMark::Disc, Series(0), "places of the goal");

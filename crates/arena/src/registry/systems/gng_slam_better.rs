@@ -1,29 +1,32 @@
-use anyhow::{Context, Error, anyhow};
 use serde_json::{Value, json};
-use tolman_arena::course::{Course, Terrain};
-use tolman_arena::gngslam::{LaidOver, PIONEER_2DX, paper_robot};
-use tolman_arena::pioneer::{LASER_PIONEER, body, calibrated};
-use tolman_arena::{Depicted, Founding, Outing, Sent, Simulated};
 use tolman_draw::Drawing;
 use tolman_geom::{Point, Pose};
 use tolman_maps::place_graph::PlaceGraph;
-use tolman_papers::gngslam::drawing::places_over_world;
 use tolman_robot::{
-    Body, Bumps, Landmark, MapView, Mapper, Rolls, TakesSnapshots, TurnTranslate, pioneer_2dx,
+    Body, Bumps, Landmark, MapView, Mapper, Ring, Rolls, TakesSnapshots, TurnTranslate, pioneer_2dx,
 };
 use tolman_sim::Model;
-use tolman_sim::robots::{LaserPioneer, Pioneer2dx};
+use tolman_sim::robots::{Pioneer2dx, Pioneer2dxConfig};
 use tolman_systems::Origin;
 use tolman_systems::gngslam::{
     ExplorationPolicy, LandmarkSighting, MapFile, OnlineSlam, OnlineSlamConfig,
 };
 
-use crate::system::{LearnedMap, MapText, Setup, SystemEntry, start_anywhere};
+use super::WIDE;
+use crate::course::{Course, Terrain};
+use crate::drawing::places_over_world;
+use crate::gngslam::LaidOver;
+use crate::pioneer::body;
+use crate::registry::{
+    DemoWorld, LearnedMap, LogMapper, MapText, Registry, RobotEntry, RobotKind, Setup, SystemEntry,
+    because,
+};
+use crate::{BoxError, Depicted, Founding, HasSimulated, Outing, Sent, Simulated};
 
 /// The [online system of GNG-SLAM](OnlineSlam) on a robot with sonars and a camera, or with a
 /// laser.
 #[derive(Clone, Copy, Debug)]
-pub struct GngSlamEntry;
+pub(super) struct GngSlamBetterEntry;
 
 const PRESETS: [(&str, &str); 2] = [
     (
@@ -31,46 +34,82 @@ const PRESETS: [(&str, &str); 2] = [
         "Goes where the floor goes on beyond its map, then by chance",
     ),
     (
-        "by-chance",
+        BY_CHANCE,
         "Straight on until something is near, then elsewhere, as in the tables",
     ),
 ];
 
-const ROBOTS: [&str; 2] = [PIONEER_2DX, LASER_PIONEER];
+/// Preset for contests.
+const BY_CHANCE: &str = "by-chance";
 
-/// Maximum calibration error of each wheel of the Pioneer 2-DX, as a share. Each wheel has its own,
-/// drawn from the seed.
-const CALIBRATION: f64 = 0.03;
+/// Beams of its laser robot's ring, and their reach, m.
+const RING: (u32, f64) = (90, 4.0);
 
 /// Default number of time steps after which a robot that learns, or drives, has failed.
 const LEARNING_STEPS: u32 = 60_000;
 const DRIVING_STEPS: u32 = 20_000;
 
-impl SystemEntry for GngSlamEntry {
+impl SystemEntry for GngSlamBetterEntry {
     fn name(&self) -> &'static str {
-        "gngslam"
+        "gng-slam-better"
+    }
+
+    fn title(&self) -> &'static str {
+        "GNG-SLAM Better"
     }
 
     fn about(&self) -> &'static str {
-        "Maps places by image, sonar or laser, and corrects its pose by them while it learns"
+        "maps places by image, sonar or laser, and corrects its pose by them while it learns"
+    }
+
+    fn needs(&self) -> &'static str {
+        "needs snapshots of what is around, by sonars or a laser ring"
+    }
+
+    fn kinds(&self) -> &'static [RobotKind] {
+        &[RobotKind::Pioneer2dx, RobotKind::Laser]
+    }
+
+    fn own_robot(&self) -> &'static str {
+        RobotEntry::PIONEER_2DX.name
     }
 
     fn presets(&self) -> &'static [(&'static str, &'static str)] {
         &PRESETS
     }
 
-    fn robots(&self) -> &'static [&'static str] {
-        &ROBOTS
+    fn arena_preset(&self) -> Option<&'static str> {
+        Some(BY_CHANCE)
     }
 
-    fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
+    fn log_mapper(&self) -> Option<LogMapper> {
+        Some(LogMapper::PlaceGraph)
+    }
+
+    fn drives(&self) -> bool {
+        true
+    }
+
+    fn claims(&self) -> bool {
+        false
+    }
+
+    fn sees_cells(&self, _kind: RobotKind) -> u32 {
+        3
+    }
+
+    fn demo(&self) -> (DemoWorld, u64) {
+        (DemoWorld::Small, 1)
+    }
+
+    fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
         let names = PRESETS.map(|(name, _)| name);
         let ways = [ExplorationPolicy::ToTheUnknown, ExplorationPolicy::ByChance];
         let explore = setup.settings.preset(names.into_iter().zip(ways))?;
         let before = setup.from.map(read).transpose()?;
         let mut preset = match &before {
             Some(before) => before.config,
-            None => usual(setup.robot(&ROBOTS)?),
+            None => usual(&setup.robot),
         };
         preset.explore = explore;
         let config: OnlineSlamConfig = setup.settings.over(&preset)?;
@@ -99,9 +138,9 @@ impl SystemEntry for GngSlamEntry {
         })
     }
 
-    fn driver(&self, maps: &[MapText], setup: &Setup<'_>) -> Result<Box<dyn Outing>, Error> {
+    fn driver(&self, maps: &[MapText], setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
         let [map] = maps else {
-            return Err(anyhow!("gngslam drives by one map: give --map once"));
+            return Err("gng-slam-better drives by one map: give --map once".into());
         };
         let file = read(map)?;
         let config: OnlineSlamConfig = setup.settings.over(&file.config)?;
@@ -118,41 +157,35 @@ impl SystemEntry for GngSlamEntry {
         })
     }
 
-    fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, Error> {
+    fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, BoxError> {
         Ok(Box::new(read(map)?))
     }
 }
 
-fn read(map: &MapText) -> Result<MapFile, Error> {
-    MapFile::from_json(&map.text).with_context(|| map.name.clone())
+fn read(map: &MapText) -> Result<MapFile, BoxError> {
+    MapFile::from_json(&map.text).map_err(|error| because(&map.name, error))
 }
 
 /// Returns our usual configuration for a robot.
-fn usual(robot: &str) -> OnlineSlamConfig {
-    match robot {
-        LASER_PIONEER => {
-            let laser = calibrated();
-            let rate = |step: f64, per_step: f64| (step / per_step).min(1.0);
-            OnlineSlamConfig::all_round(
-                laser.radius,
-                rate(0.04, laser.translate_per_step),
-                rate(0.15, laser.turn_per_step),
-            )
-        }
-        _ => OnlineSlamConfig::pioneer_2dx(),
+fn usual(robot: &RobotEntry) -> OnlineSlamConfig {
+    let mut config = OnlineSlamConfig::pioneer_2dx();
+    if robot.kind().can_be(RobotKind::Laser) {
+        // The same distance and turn per time step as the Pioneer 2-DX.
+        config.drive.translate = 0.04 / robot.laser_config().translate_per_step;
+        config.drive.turn = 0.1;
     }
+    config
 }
 
-fn body_of(robot: &str) -> Body {
-    match robot {
-        LASER_PIONEER => body(),
+fn body_of(kind: RobotKind) -> Body {
+    match kind {
+        RobotKind::Laser | RobotKind::Camera => body(),
         _ => pioneer_2dx::body(),
     }
 }
 
 /// The course that a robot is sent into.
 struct Ground {
-    robot: &'static str,
     course: Course,
     start: Pose,
 }
@@ -173,22 +206,25 @@ struct Mission {
 fn send(
     setup: &Setup<'_>,
     mission: impl FnOnce(&Ground) -> Mission,
-) -> Result<Box<dyn Outing>, Error> {
-    let robot = setup.robot(&ROBOTS)?;
-    let body = body_of(robot);
-    let course = setup.terrain.course(setup.world, &body)?;
-    let start = start_anywhere(setup, &course, &body)?;
-    let ground = Ground {
-        robot,
-        course,
-        start,
-    };
+) -> Result<Box<dyn Outing>, BoxError> {
+    let kind = setup.robot.kind();
+    let course = setup.course(&body_of(kind), WIDE)?;
+    let start = setup.start_anywhere(&course, &body_of(kind))?;
+    let ground = Ground { course, start };
     let mission = mission(&ground);
-    match robot {
-        LASER_PIONEER => ground.send(setup, mission, LaserPioneer::new(calibrated())?),
+    match kind {
+        RobotKind::Laser | RobotKind::Camera => {
+            let mut config = setup.robot.laser_config();
+            config.ring = Ring::full(RING.0, RING.1);
+            let robot = setup.laser_at(&ground.course, start, config)?;
+            ground.send(setup, mission, robot)
+        }
         _ => {
-            let model = Pioneer2dx::new(paper_robot(setup.seed, CALIBRATION)?)?;
-            ground.send(setup, mission, model)
+            let config = setup
+                .condition
+                .pioneer_2dx(Pioneer2dxConfig::paper(), setup.seed);
+            let robot = (ground.course).robot_at(start, Pioneer2dx::new(config)?, setup.seed)?;
+            ground.send(setup, mission, robot)
         }
     }
 }
@@ -198,16 +234,15 @@ impl Ground {
         self,
         setup: &Setup<'_>,
         mission: Mission,
-        model: M,
-    ) -> Result<Box<dyn Outing>, Error>
+        robot: Simulated<M>,
+    ) -> Result<Box<dyn Outing>, BoxError>
     where
         M: Depicted
             + Model<Command = TurnTranslate, Sensing: TakesSnapshots + Rolls + Bumps>
             + 'static,
-        Simulated<M>: tolman_arena::HasSimulated,
+        Simulated<M>: HasSimulated,
     {
-        let origin = setup.origin(&self.course, self.robot);
-        let robot = self.course.robot_at(self.start, model, setup.seed)?;
+        let origin = setup.origin(&self.course);
         let Mission {
             system,
             sites,
@@ -325,7 +360,7 @@ impl LearnedMap for MapFile {
         let Origin { world, seed, .. } = &self.origin;
         let laid = LaidOver::of(&self.graph, &self.sites);
         json!({
-            "system": GngSlamEntry.name(),
+            "system": GngSlamBetterEntry.name(),
             "maze": world,
             "seed": seed,
             "config": self.config,
@@ -337,10 +372,10 @@ impl LearnedMap for MapFile {
         })
     }
 
-    fn drawing(&self, terrain: &Terrain) -> Result<Drawing, Error> {
+    fn drawing(&self, terrain: &Terrain) -> Result<Drawing, BoxError> {
         let course = course_of(self, terrain)?;
         let laid = LaidOver::of(&self.graph, &self.sites).ok_or_else(|| {
-            anyhow!("the map has no true positions of its places, so it cannot be drawn over a world: leave --svg out")
+            "the map has no true positions of its places, so it cannot be drawn over a world: leave --svg out"
         })?;
         let mut map: MapView = self.graph.map();
         for place in &mut map.places {
@@ -354,11 +389,11 @@ impl LearnedMap for MapFile {
         Ok(places_over_world(&course, &map))
     }
 
-    fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, Error> {
+    fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, BoxError> {
         let count = self.graph.places().len();
         let known = |place: u32| match (place as usize) < count {
             true => Ok(place),
-            false => Err(anyhow!(
+            false => Err(format!(
                 "there is no place {place}: they are numbered from 0 to {}",
                 count.saturating_sub(1)
             )),
@@ -366,8 +401,7 @@ impl LearnedMap for MapFile {
         let from = known(from.unwrap_or(0))?;
         let to = match to {
             Some(to) => known(to)?,
-            None => goal_of(self)
-                .ok_or_else(|| anyhow!("the goal is not on this map: give --to PLACE"))?,
+            None => goal_of(self).ok_or("the goal is not on this map: give --to PLACE")?,
         };
         let system = OnlineSlam::on(self.graph.clone(), self.config, 0);
         let poses = self.graph.poses().poses();
@@ -381,7 +415,7 @@ impl LearnedMap for MapFile {
         Ok(way)
     }
 
-    fn complaint(&self, terrain: &Terrain) -> Result<Option<String>, Error> {
+    fn complaint(&self, terrain: &Terrain) -> Result<Option<String>, BoxError> {
         let course = course_of(self, terrain)?;
         let drawn = self.origin.drawing.as_ref();
         if drawn.is_some_and(|drawn| *drawn != course.drawing()) {
@@ -389,7 +423,7 @@ impl LearnedMap for MapFile {
             return Ok(Some(why.to_owned()));
         }
         if self.sites.is_empty() {
-            return Err(anyhow!("the map has no true positions of its places"));
+            return Err("the map has no true positions of its places".into());
         }
         Ok(complaint(
             &self.graph,
@@ -417,7 +451,8 @@ fn goal_of(file: &MapFile) -> Option<u32> {
 }
 
 /// Returns the maze or world that a map was learned in, prepared for the robot that learned it.
-fn course_of(file: &MapFile, terrain: &Terrain) -> Result<Course, Error> {
-    let body = body_of(&file.origin.robot);
-    Ok(terrain.course(&file.origin.world, &body)?)
+fn course_of(file: &MapFile, terrain: &Terrain) -> Result<Course, BoxError> {
+    let robot = Registry::current().robot(&file.origin.robot);
+    let kind = robot.map_or(RobotKind::Pioneer2dx, |robot| robot.kind());
+    Ok(terrain.course_with(&file.origin.world, &body_of(kind), WIDE)?)
 }

@@ -1,0 +1,258 @@
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use thiserror::Error;
+use tolman_control::Stack;
+use tolman_geom::Pose;
+use tolman_maze::{Cell, Direction};
+use tolman_robot::Body;
+use tolman_sim::robots::LaserPioneerConfig;
+use tolman_systems::Origin;
+
+use super::{LaserLike, MapText, RobotEntry, Schooling, Start};
+use crate::contest::{Condition, with_door};
+use crate::course::{Course, Terrain};
+use crate::episode::{layers, random_start};
+use crate::{BoxError, Simulated};
+
+/// Everything needed to send out a robot.
+#[derive(Clone, Debug)]
+pub struct Setup<'a> {
+    /// Name of the maze or world.
+    pub world: &'a str,
+    /// Maze or world into which the robot is sent.
+    pub terrain: &'a Terrain,
+    /// Seed of all random numbers: the same seed gives the same result.
+    pub seed: u64,
+    /// Start of the robot; `None` for the system's default.
+    pub start: Option<Start>,
+    /// Number of time steps after which the task has failed; `None` for the system's default.
+    pub steps: Option<u32>,
+    /// Robot that carries the system.
+    pub robot: RobotEntry,
+    /// Map to continue learning from; `None` to begin with an empty one.
+    pub from: Option<&'a MapText>,
+    /// Settings of the system.
+    pub settings: Settings<'a>,
+    /// Change of the robot and the world.
+    pub condition: Condition,
+    /// What systems learn once, before they are sent out.
+    pub schooling: &'a Schooling,
+}
+
+impl Setup<'_> {
+    /// Returns the origin of a map that is learned on this course by this robot.
+    #[must_use]
+    pub fn origin(&self, course: &Course) -> Origin {
+        Origin {
+            world: self.world.to_owned(),
+            drawing: Some(course.drawing()),
+            robot: self.robot.title.to_owned(),
+            seed: self.seed,
+        }
+    }
+
+    /// Returns the course for a robot of this body, with the [door](Condition::Doors) of its
+    /// condition. In a maze whose file gives no width, corridors are `usual_width` m wide.
+    ///
+    /// # Errors
+    /// As [`Terrain::course`].
+    pub fn course(&self, body: &Body, usual_width: f64) -> Result<Course, BoxError> {
+        let course = self.terrain.course_with(self.world, body, usual_width)?;
+        self.with_door(course)
+    }
+
+    /// Returns a course with the door of this condition, if there is one.
+    ///
+    /// # Errors
+    /// If the door does not fit the world.
+    pub fn with_door(&self, course: Course) -> Result<Course, BoxError> {
+        match self.door(&course) {
+            Some(door) => Ok(with_door(course, door)?),
+            None => Ok(course),
+        }
+    }
+
+    fn door(&self, course: &Course) -> Option<(Cell, Direction)> {
+        match course.is_free() {
+            true => None,
+            false => self.condition.door(&course.maze, self.seed),
+        }
+    }
+
+    /// Returns the start of the robot on `course`: the one that was given, or else `usual`.
+    /// `random` is called for a random one.
+    ///
+    /// # Errors
+    /// If the maze marks no start, or no way leads on from there.
+    pub fn start(
+        &self,
+        course: &Course,
+        usual: Start,
+        random: impl FnOnce() -> Option<Pose>,
+    ) -> Result<Pose, BoxError> {
+        self.start.unwrap_or(usual).on(course, random)
+    }
+
+    /// Returns the start of a robot with this body on `course`: the given one, or a random one.
+    ///
+    /// # Errors
+    /// As [`start`](Self::start).
+    pub fn start_anywhere(&self, course: &Course, body: &Body) -> Result<Pose, BoxError> {
+        let random = || Some(random_start(course, body, self.seed));
+        self.start(course, Start::Random, random)
+    }
+
+    /// Returns the robot at `start`, a laser robot that is configured so before the condition
+    /// changes it.
+    ///
+    /// # Errors
+    /// If it cannot be built, or cannot stand there.
+    pub fn laser_at(
+        &self,
+        course: &Course,
+        start: Pose,
+        config: LaserPioneerConfig,
+    ) -> Result<Simulated<LaserLike>, BoxError> {
+        let config = self.condition.laser_pioneer(config, self.seed);
+        let model = self.robot.laser_model(config)?;
+        Ok(course.robot_at(start, model, self.seed)?)
+    }
+
+    /// Puts the laser robot on the course of the maze, and returns both with the layers that drive
+    /// it. Without a given start, its pose is random.
+    ///
+    /// # Errors
+    /// If maze, robot or start do not fit.
+    pub fn laser_robot(&self) -> Result<(Course, Simulated<LaserLike>, Stack), BoxError> {
+        let config = self.robot.laser_config();
+        let body = Body::Circle {
+            radius: config.radius,
+        };
+        let course = self.course(&body, crate::pioneer::CORRIDOR_WIDTH)?;
+        let start = self.start_anywhere(&course, &body)?;
+        let stack = layers(&course, &config)?;
+        let robot = self.laser_at(&course, start, config)?;
+        Ok((course, robot, stack))
+    }
+
+    /// Refuses to continue from a map.
+    ///
+    /// # Errors
+    /// If the setup has one.
+    pub fn anew(&self, system: &str) -> Result<(), BoxError> {
+        match self.from {
+            Some(map) => Err(format!(
+                "{system} learns a maze in one go and cannot continue {}: leave --from out",
+                map.name
+            )
+            .into()),
+            None => Ok(()),
+        }
+    }
+}
+
+/// A setting or preset that a system does not have.
+#[derive(Clone, Debug, PartialEq, Eq, Error)]
+#[error("{told}; choose one of: {}", known.join(", "))]
+pub struct UnknownName {
+    /// What is wrong, as a sentence without a full stop.
+    pub told: String,
+    /// Name that was given.
+    pub name: String,
+    /// Names that the system knows.
+    pub known: Vec<String>,
+}
+
+/// Settings of a system: a preset and changes to it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Settings<'a> {
+    /// Name of the preset; `None` for the first.
+    pub preset: Option<&'a str>,
+    /// Fields by their path, each with its value as TOML.
+    pub set: &'a [(String, String)],
+}
+
+impl Settings<'_> {
+    /// Returns the one of `presets` that is chosen, or the first.
+    ///
+    /// # Errors
+    /// If another one is chosen.
+    pub fn preset<T>(
+        &self,
+        presets: impl IntoIterator<Item = (&'static str, T)>,
+    ) -> Result<T, BoxError> {
+        let mut known = Vec::new();
+        for (name, preset) in presets {
+            if self.preset.is_none_or(|chosen| chosen == name) {
+                return Ok(preset);
+            }
+            known.push(name);
+        }
+        let name = self.preset.unwrap_or_default();
+        Err(UnknownName {
+            told: format!("there is no preset {name}"),
+            name: name.to_owned(),
+            known: known.into_iter().map(ToOwned::to_owned).collect(),
+        }
+        .into())
+    }
+
+    /// Returns `preset` with the changes made.
+    ///
+    /// # Errors
+    /// If there is no such field, or it cannot have that value.
+    pub fn over<C: Serialize + DeserializeOwned>(&self, preset: &C) -> Result<C, BoxError> {
+        let mut table = toml::Table::try_from(preset)?;
+        for (path, value) in self.set {
+            set(&mut table, path, value)?;
+        }
+        table.try_into().map_err(|error: toml::de::Error| {
+            let set = self
+                .set
+                .iter()
+                .map(|(path, value)| format!("{path}={value}"));
+            let set = set.collect::<Vec<_>>().join(" --set ");
+            format!("--set {set}: {}", in_plain_words(error.message())).into()
+        })
+    }
+}
+
+/// Returns the TOML reader's message, with words in place of the names of Rust's types.
+fn in_plain_words(message: &str) -> String {
+    let message = message.trim_end();
+    let Some((before, wanted)) = message.rsplit_once("expected ") else {
+        return message.to_owned();
+    };
+    let wanted = match wanted {
+        "u8" | "u16" | "u32" | "u64" | "usize" => "a whole number, 0 or more",
+        "i8" | "i16" | "i32" | "i64" | "isize" => "a whole number",
+        "f32" | "f64" => "a number",
+        other => other,
+    };
+    format!("{before}expected {wanted}")
+}
+
+/// Sets the field at `path` of a table to `value`.
+fn set(table: &mut toml::Table, path: &str, value: &str) -> Result<(), BoxError> {
+    let (name, rest) = path.split_once('.').unwrap_or((path, ""));
+    let Some(field) = table.get_mut(name) else {
+        return Err(UnknownName {
+            told: format!("--set {path}={value}: there is no setting {name}"),
+            name: name.to_owned(),
+            known: table.keys().cloned().collect(),
+        }
+        .into());
+    };
+    if let (false, Some(inner)) = (rest.is_empty(), field.as_table_mut()) {
+        return set(inner, rest, value);
+    }
+    let whole: Result<toml::Table, _> = toml::from_str(&format!("value = {value}"));
+    let read = whole.ok().and_then(|mut whole| whole.remove("value"));
+    let read = read.unwrap_or_else(|| toml::Value::String(value.to_owned()));
+    // A whole number may stand for a real one.
+    *field = match (&field, &read) {
+        (toml::Value::Float(_), toml::Value::Integer(number)) => toml::Value::Float(*number as f64),
+        _ => read,
+    };
+    Ok(())
+}

@@ -1,0 +1,72 @@
+use crate::registry::{LogMapper, RobotKind, Setup, SystemEntry};
+use crate::{BoxError, Outing};
+
+/// A mapper that only watches: it maps logs.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LogEntry {
+    name: &'static str,
+    about: &'static str,
+    mapper: LogMapper,
+}
+
+pub(super) const SCAN_MATCHING: LogEntry = LogEntry {
+    name: "scan-matching",
+    about: "matches scans to earlier ones, and to places seen before: the dense baseline",
+    mapper: LogMapper::ScanMatching,
+};
+
+pub(super) const PLACES: LogEntry = LogEntry {
+    name: "places",
+    about: "matches scans to earlier ones; junctions, bends, dead ends and rooms are places, which it recognizes again",
+    mapper: LogMapper::Places,
+};
+
+pub(super) const MATCHING: LogEntry = LogEntry {
+    name: "matching",
+    about: "matches scans only to those shortly before",
+    mapper: LogMapper::Matching,
+};
+
+pub(super) const ODOMETRY: LogEntry = LogEntry {
+    name: "odometry",
+    about: "uses the wheels only",
+    mapper: LogMapper::Odometry,
+};
+
+impl SystemEntry for LogEntry {
+    fn name(&self) -> &'static str {
+        self.name
+    }
+
+    fn about(&self) -> &'static str {
+        self.about
+    }
+
+    fn needs(&self) -> &'static str {
+        "needs a log"
+    }
+
+    fn kinds(&self) -> &'static [RobotKind] {
+        &[]
+    }
+
+    fn learns(&self) -> bool {
+        false
+    }
+
+    fn log_mapper(&self) -> Option<LogMapper> {
+        Some(self.mapper)
+    }
+
+    fn claims(&self) -> bool {
+        false
+    }
+
+    fn learner(&self, _setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
+        let name = self.name;
+        Err(format!(
+            "{name} drives no robot: map a log with `tolman map --log FILE --system {name}`"
+        )
+        .into())
+    }
+}

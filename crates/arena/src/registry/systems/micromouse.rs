@@ -1,0 +1,67 @@
+use tolman_maze::Maze;
+use tolman_systems::micromouse::SIDE;
+use tolman_systems::micromouse::system::{MazeMouse, MazeMouseConfig};
+
+use crate::micromouse::brief;
+use crate::pioneer::{CORRIDOR_WIDTH, body};
+use crate::registry::{Setup, Start, SystemEntry};
+use crate::{BoxError, Outing, Sent};
+
+/// [`MazeMouse`], which is told the grid, its start and the goal.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MicromouseEntry;
+
+impl SystemEntry for MicromouseEntry {
+    fn name(&self) -> &'static str {
+        "micromouse"
+    }
+
+    fn title(&self) -> &'static str {
+        "Micromouse"
+    }
+
+    fn about(&self) -> &'static str {
+        "is told the grid, the start and the goal, and explores wall by wall"
+    }
+
+    fn is_paper(&self) -> bool {
+        true
+    }
+
+    fn why_no_log(&self) -> &'static str {
+        WALLS
+    }
+
+    fn abstains(&self, maze: &Maze) -> Option<String> {
+        too_large(maze)
+    }
+
+    fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
+        setup.anew(self.name())?;
+        let maze = &setup.terrain.maze("the micromouse")?.maze;
+        let config = setup.robot.laser_config();
+        let course = setup.course(&body(), CORRIDOR_WIDTH)?;
+        let start = setup.start(&course, Start::Marked, || None)?;
+        let mouse = MazeMouseConfig::new(
+            course.corridor_width,
+            config.turn_per_step,
+            config.translate_per_step,
+        );
+        let mouse = MazeMouse::whole_maze(brief(maze)?, mouse)?;
+        let robot = setup.laser_at(&course, start, config)?;
+        let steps = setup.steps.unwrap_or(u32::MAX);
+        let origin = setup.origin(&course);
+        let sent = Sent::new(course, robot, steps, mouse);
+        Ok(Box::new(sent.keeping_its_view(self.name(), origin)))
+    }
+}
+
+/// Reason why a mouse cannot map a log.
+pub(super) const WALLS: &str = "it learns the walls of a grid's cells, which a log does not have";
+
+/// Returns why a drawing is too large for a mouse; `None` if it is not.
+pub(super) fn too_large(maze: &Maze) -> Option<String> {
+    let grid = maze.grid();
+    let side = grid.width().max(grid.height()) as usize;
+    (side > SIDE).then(|| format!("it knows mazes of at most {SIDE} × {SIDE} cells"))
+}

@@ -1,0 +1,64 @@
+use tolman_maze::Maze;
+use tolman_robot::Ring;
+use tolman_systems::micromouse::noisy::{MotionSource, NoisyMouse, NoisyMouseConfig};
+
+use super::micromouse::{WALLS, too_large};
+use crate::micromouse::brief;
+use crate::pioneer::{CORRIDOR_WIDTH, body};
+use crate::registry::{Setup, Start, SystemEntry};
+use crate::{BoxError, Outing, Sent};
+
+/// [`NoisyMouse`], which is told the same as the micromouse and has no compass. It localizes with a
+/// particle filter over the walls it believes in: what many would choose instead.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct WallBeliefEntry;
+
+/// Number of the laser's beams that its filter weighs.
+const BEAMS: u32 = 8;
+
+impl SystemEntry for WallBeliefEntry {
+    fn name(&self) -> &'static str {
+        "wall-belief"
+    }
+
+    fn title(&self) -> &'static str {
+        "Wall belief"
+    }
+
+    fn about(&self) -> &'static str {
+        "believes in walls, as a noisy micromouse, and knows where it is by particles"
+    }
+
+    fn needs(&self) -> &'static str {
+        "needs a laser ring and encoders"
+    }
+
+    fn why_no_log(&self) -> &'static str {
+        WALLS
+    }
+
+    fn abstains(&self, maze: &Maze) -> Option<String> {
+        too_large(maze)
+    }
+
+    fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
+        setup.anew(self.name())?;
+        let maze = &setup.terrain.maze("the wall belief")?.maze;
+        let mut config = setup.robot.laser_config();
+        config.ring = Ring::full(BEAMS, config.ring.max_range);
+        let course = setup.course(&body(), CORRIDOR_WIDTH)?;
+        let start = setup.start(&course, Start::Marked, || None)?;
+        let mut mouse = NoisyMouseConfig::new(
+            course.corridor_width,
+            config.turn_per_step,
+            config.translate_per_step,
+        );
+        mouse.motion = MotionSource::Encoders;
+        let mouse = NoisyMouse::new(brief(maze)?, mouse, setup.seed)?;
+        let robot = setup.laser_at(&course, start, config)?;
+        let steps = setup.steps.unwrap_or(u32::MAX);
+        let origin = setup.origin(&course);
+        let sent = Sent::new(course, robot, steps, mouse);
+        Ok(Box::new(sent.keeping_its_view(self.name(), origin)))
+    }
+}

@@ -1,0 +1,111 @@
+use serde::{Deserialize, Serialize};
+use serde_json::{Value, json};
+use tolman_draw::Drawing;
+use tolman_geom::Point;
+use tolman_robot::{Landmark, MapLink, MapPlace, MapView};
+use tolman_systems::{FileError, MapFiles, Origin};
+
+use super::LearnedMap;
+use crate::BoxError;
+use crate::course::Terrain;
+use crate::drawing::places_over_world;
+
+/// The file of a map of which only places and links are kept: any system's.
+#[derive(Clone, Debug)]
+pub(super) struct ViewFile {
+    system: String,
+    origin: Origin,
+    view: MapView,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Body {
+    places: Vec<Place>,
+    links: Vec<(u32, u32)>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Place {
+    id: u32,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    position: Option<[f64; 2]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    landmark: Option<Landmark>,
+}
+
+/// Returns the text of a file with the places and links of a map that `system` learned.
+pub(crate) fn view_file(
+    system: &'static str,
+    origin: &Origin,
+    view: &MapView,
+) -> Result<String, FileError> {
+    let place = |place: &MapPlace| Place {
+        id: place.id,
+        position: place.position.map(Into::into),
+        landmark: place.landmark,
+    };
+    let body = Body {
+        places: view.places.iter().map(place).collect(),
+        links: view.links.iter().map(|link| (link.from, link.to)).collect(),
+    };
+    MapFiles { system }.write(origin, &body)
+}
+
+impl ViewFile {
+    /// Reads the text of a file that `system` wrote; `None` if it has other fields.
+    pub(super) fn read(system: &'static str, text: &str) -> Option<Self> {
+        let (origin, Body { places, links }) = MapFiles { system }.read(text).ok()?;
+        let place = |place: Place| MapPlace {
+            id: place.id,
+            position: place.position.map(Point::from),
+            landmark: place.landmark,
+        };
+        let view = MapView {
+            places: places.into_iter().map(place).collect(),
+            links: (links.into_iter())
+                .map(|(from, to)| MapLink { from, to })
+                .collect(),
+        };
+        let system = system.to_owned();
+        Some(Self {
+            system,
+            origin,
+            view,
+        })
+    }
+}
+
+impl LearnedMap for ViewFile {
+    fn lines(&self) -> Vec<String> {
+        let Origin { world, seed, .. } = &self.origin;
+        let (places, links) = (self.view.places.len(), self.view.links.len());
+        vec![
+            format!("{world}, seed {seed}"),
+            format!("{places} places, {links} links"),
+        ]
+    }
+
+    fn json(&self) -> Value {
+        let Origin { world, seed, .. } = &self.origin;
+        json!({
+            "system": self.system,
+            "maze": world,
+            "seed": seed,
+            "places": self.view.places.len(),
+            "links": self.view.links.len(),
+        })
+    }
+
+    fn drawing(&self, terrain: &Terrain) -> Result<Drawing, BoxError> {
+        if self
+            .view
+            .places
+            .iter()
+            .all(|place| place.position.is_none())
+        {
+            return Err("the map has no positions of its places: leave --svg out".into());
+        }
+        let course = terrain.course(&self.origin.world, &crate::pioneer::body())?;
+        Ok(places_over_world(&course, &self.view))
+    }
+}
