@@ -11,6 +11,7 @@ extern crate alloc;
 
 mod fuzz;
 mod golden;
+mod judges;
 mod maze_page;
 mod mazes;
 mod mslst;

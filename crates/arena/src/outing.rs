@@ -7,7 +7,7 @@ use core::time::Duration;
 use tolman_geom::{Point, Pose};
 use tolman_robot::{
     Body, Clock, Guess, Landmark, MapView, Mapper, Position, Ranges, Ring, Robot, Rolls, Scan,
-    SensesLandmarks, Standing, System, Task, TurnTranslate,
+    SensesLandmarks, Standing, System, Task, TurnTranslate, VisitNaming,
 };
 use tolman_sim::robots::{CameraPioneer, Epuck, LaserPioneer, Pioneer2dx};
 use tolman_sim::trace::Recordable;
@@ -58,8 +58,10 @@ pub trait Outing: InRun {
     /// Returns the positions at which the system believes to be.
     fn belief(&self) -> Vec<Guess>;
 
-    /// Returns the places that the system came to, in order, as it understands them now; empty if
-    /// its places keep their names.
+    /// Returns when the system names a place of [`visits`](Self::visits).
+    fn visit_naming(&self) -> VisitNaming;
+
+    /// Returns the places that the system came to, in order, as it understands them now.
     fn visits(&self) -> Vec<Option<u32>>;
 
     /// Returns the number of places the system came to: as many as [`visits`](Self::visits) names.
@@ -70,6 +72,12 @@ pub trait Outing: InRun {
     /// Returns the probability by the system that its map is right, 0 … 1; `None` if it does not
     /// weigh that.
     fn certainty(&self) -> Option<f64> {
+        None
+    }
+
+    /// Returns why the map may be wrong or unfinished by the system's own account; `None` if it
+    /// sees no reason.
+    fn doubt(&self) -> Option<String> {
         None
     }
 
@@ -136,10 +144,6 @@ pub trait Outing: InRun {
     /// # Errors
     /// If the map has no such form.
     fn map_file(&self) -> Result<Option<String>, BoxError>;
-
-    /// Returns why the map is known to be wrong or unfinished after `task`, by the truth too, which
-    /// no system sees.
-    fn complaint(&self, task: Task) -> Option<String>;
 
     /// Returns the trace of the run so far.
     ///
@@ -288,7 +292,7 @@ impl Depicted for Epuck {
 
 /// Any [`System`] with any simulated robot, as an [`Outing`].
 ///
-/// [`keeping`](Self::keeping), [`judged`](Self::judged), [`counting`](Self::counting),
+/// [`keeping`](Self::keeping), [`counting`](Self::counting),
 /// [`choosing`](Self::choosing) and [`lying`](Self::lying) say what it does with its map; without
 /// them it keeps none.
 pub struct Sent<R: Robot, S> {
@@ -301,7 +305,6 @@ pub struct Sent<R: Robot, S> {
     actions: u32,
     count: Count<S>,
     keep: Keep<S>,
-    judge: Judge<S>,
     lie: Lie<S>,
     choice: Count<S>,
     /// Name of the robot, if it differs from its model's.
@@ -314,7 +317,6 @@ pub struct Sent<R: Robot, S> {
 
 type Count<S> = Box<dyn Fn(&S) -> usize>;
 type Keep<S> = Box<dyn Fn(&S, &[Founding]) -> Result<Option<String>, BoxError>>;
-type Judge<S> = Box<dyn Fn(&S, &[Founding], Task) -> Option<String>>;
 type Lie<S> = Box<dyn Fn(&S) -> BTreeMap<u32, Point>>;
 
 impl<R: Robot, S> fmt::Debug for Sent<R, S> {
@@ -337,7 +339,6 @@ impl<R: Robot, S> Sent<R, S> {
             actions: 0,
             count: Box::new(|_| 0),
             keep: Box::new(|_, _| Ok(None)),
-            judge: Box::new(|_, _, _| None),
             lie: Box::new(|_| BTreeMap::new()),
             choice: Box::new(|_| 0),
             name: None,
@@ -370,22 +371,6 @@ impl<R: Robot, S> Sent<R, S> {
         S: Mapper,
     {
         self.keeping(move |mapper, _| Ok(Some(view_file(system, &origin, &mapper.map())?)))
-    }
-
-    /// Lets `judge` say why the map is known to be wrong or unfinished after a task.
-    #[must_use]
-    pub fn judged(self, judge: impl Fn(&S, Task) -> Option<String> + 'static) -> Self {
-        self.judging(move |system, _, task| judge(system, task))
-    }
-
-    /// Does the same as `judged`, with how each place was made, by id.
-    #[must_use]
-    pub fn judging(
-        self,
-        judge: impl Fn(&S, &[Founding], Task) -> Option<String> + 'static,
-    ) -> Self {
-        let judge = Box::new(judge);
-        Self { judge, ..self }
     }
 
     /// Lets `choice` say which of several maps the system takes for that of the maze.
@@ -508,8 +493,16 @@ where
         belief
     }
 
+    fn visit_naming(&self) -> VisitNaming {
+        self.system.visit_naming()
+    }
+
     fn visits(&self) -> Vec<Option<u32>> {
         self.system.visits()
+    }
+
+    fn doubt(&self) -> Option<String> {
+        self.system.doubt()
     }
 
     fn visit_count(&self) -> usize {
@@ -574,10 +567,6 @@ where
 
     fn map_file(&self) -> Result<Option<String>, BoxError> {
         (self.keep)(&self.system, &self.sites)
-    }
-
-    fn complaint(&self, task: Task) -> Option<String> {
-        (self.judge)(&self.system, &self.sites, task)
     }
 
     fn trace(&self) -> Result<Vec<u8>, BoxError> {

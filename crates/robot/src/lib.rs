@@ -51,7 +51,7 @@ pub use capabilities::{Bumps, Clock, Compass, Ranges, Rolls, Sees};
 pub use column_image::{CameraSensing, ColumnImage};
 pub use landmark::{Landmark, Landmarked, SensesLandmarks};
 pub use laser_robot::LaserSensing;
-pub use mapper::{Guess, MapLink, MapPlace, MapView, Mapper, Position};
+pub use mapper::{Guess, MapLink, MapPlace, MapView, Mapper, Position, VisitNaming};
 pub use odometry::Odometry;
 pub use picture::{Picture, PinholeCamera};
 pub use reckoned::Reckoned;

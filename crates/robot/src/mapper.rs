@@ -1,3 +1,4 @@
+use alloc::string::String;
 use alloc::vec::Vec;
 
 use tolman_geom::Point;
@@ -36,17 +37,27 @@ pub trait Mapper {
         Vec::new()
     }
 
-    /// Returns the places that it visited, in order, in the light of all later observations. A
-    /// place that is not on its map is `None`. A mapper may name one for each of its observations.
-    /// Empty if its places keep their names, so that its beliefs of old still hold. O(visits · log
+    /// Returns when the mapper names a place of [`visits`](Self::visits).
+    fn visit_naming(&self) -> VisitNaming {
+        VisitNaming::Never
+    }
+
+    /// Returns the places that it visited, in order, given all later observations: as many as its
+    /// [naming](Self::visit_naming) says. A place that is not on its map is `None`. O(visits · log
     /// map).
     fn visits(&self) -> Vec<Option<u32>> {
         Vec::new()
     }
 
-    /// Returns the number of places that it visited: as many as [`visits`](Self::visits) names.
+    /// Returns the number of elements of [`visits`](Self::visits).
     fn visit_count(&self) -> usize {
         self.visits().len()
+    }
+
+    /// Returns why the map may be wrong or unfinished, by the mapper's own account and without the
+    /// truth, in a sentence without a full stop; `None` if it sees no reason.
+    fn doubt(&self) -> Option<String> {
+        None
     }
 
     /// Returns the probability that its map is right for its observations, 0 … 1; `None` if it does
@@ -79,8 +90,16 @@ impl<M: Mapper + ?Sized> Mapper for &mut M {
         (**self).belief()
     }
 
+    fn visit_naming(&self) -> VisitNaming {
+        (**self).visit_naming()
+    }
+
     fn visits(&self) -> Vec<Option<u32>> {
         (**self).visits()
+    }
+
+    fn doubt(&self) -> Option<String> {
+        (**self).doubt()
     }
 
     fn visit_count(&self) -> usize {
@@ -94,6 +113,17 @@ impl<M: Mapper + ?Sized> Mapper for &mut M {
     fn map_bytes(&self) -> Option<usize> {
         (**self).map_bytes()
     }
+}
+
+/// When a mapper names a place that it visited.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VisitNaming {
+    /// It names none: its places keep their names, so that its former beliefs still hold.
+    Never,
+    /// It names one before the first time step of its robot, and one after each.
+    EachStep,
+    /// It names one whenever it comes to a place. An action may lead to none, or to several.
+    EachArrival,
 }
 
 /// A learned map as any scorer and any drawing can read it.

@@ -5,7 +5,7 @@ use thiserror::Error;
 use tolman_control::{Drive, Driven, Stack};
 use tolman_robot::{
     Compass, Goal, Guess, MapView, Mapper, Ranges, Ring, Robot, SensesLandmarks, Standing, System,
-    Task, TurnTranslate,
+    Task, TurnTranslate, VisitNaming,
 };
 
 use crate::{Brain, Doing, OfStep, stream};
@@ -184,6 +184,10 @@ impl<B: Brain> Mapper for Actor<B> {
         self.brain.belief()
     }
 
+    fn visit_naming(&self) -> VisitNaming {
+        self.brain.visit_naming()
+    }
+
     fn visits(&self) -> Vec<Option<u32>> {
         self.brain.visits()
     }
@@ -194,6 +198,10 @@ impl<B: Brain> Mapper for Actor<B> {
 
     fn certainty(&self) -> Option<f64> {
         self.brain.certainty()
+    }
+
+    fn doubt(&self) -> Option<String> {
+        self.brain.doubt()
     }
 
     fn map_bytes(&self) -> Option<usize> {

@@ -31,31 +31,51 @@ pub struct MapJudgement {
 impl MapJudgement {
     /// Minimum share of all places and ways that a right map has.
     pub const ENOUGH: f64 = 0.95;
+
+    /// Returns why the map is wrong or unfinished, in a sentence without a full stop; `None` if it
+    /// is right.
+    #[must_use]
+    pub fn complaint(&self) -> Option<String> {
+        let percent = |share: f64| format!("{:.0} %", 100.0 * share);
+        if self.is_right {
+            return None;
+        }
+        let recall = percent(self.link_recall);
+        if self.is_right_of_visited {
+            return Some(format!(
+                "it is right as far as the robot went, but has {recall} of the true ways alone: learn longer"
+            ));
+        }
+        let links = match self.link_precision {
+            Some(share) => format!("{} of its links are true ways", percent(share)),
+            None => "it has no links".to_owned(),
+        };
+        let purity = self.purity.map_or("no visits".to_owned(), |share| {
+            format!("{} of the visits at the same place", percent(share))
+        });
+        Some(format!(
+            "{:.2} places for each true one, {purity}; {links}, and {recall} of the true ways are on it: learn longer, or try another --seed",
+            self.places
+        ))
+    }
 }
 
 /// Returns the judgement of a map.
 ///
-/// - `visits` are the robot's true positions when it believed it was at places.
-/// - `gone` are the numbers of the ways that it truly drove.
-/// - `squares` are the drawing's grid and its pitch, the distance between the middles of two cells,
-///   m.
+/// - `stands_for` has the cell for which each place of the map stands, and `purity` the share of
+///   the visits in it.
+/// - `gone` are the numbers of the ways that the robot truly drove.
 ///
-/// A place of the map stands for the cell where the robot most often was when it believed it was
-/// there. A place that was never visited stands for the cell at its position on the map, if it has
-/// one. Places that stand for cells inside a way, such as bends, belong to the link between the
-/// places at its ends. O(visits + links · ways).
-#[must_use]
-pub fn judge(
+/// Places that stand for cells inside a way, such as bends, belong to the link between the places
+/// at its ends. O(links · ways).
+pub(super) fn judge(
     map: &MapView,
-    visits: &[PlaceVisit],
+    stands_for: &BTreeMap<u32, Cell>,
+    purity: Option<f64>,
     truth: &TrueGraph,
     gone: &BTreeSet<usize>,
-    squares: (tolman_maze::Grid, f64),
 ) -> MapJudgement {
-    let (grid, pitch) = squares;
-    let squares = Squares { grid, pitch };
-    let (stands_for, purity) = stands_for(map, visits, squares);
-    let chart = Chart::of(map, &stands_for, truth);
+    let chart = Chart::of(map, stands_for, truth);
     let mut found: BTreeSet<usize> = BTreeSet::new();
     let (mut links, mut right_links) = (0_usize, 0_usize);
     let mut chains = chart.chains();
@@ -100,6 +120,10 @@ pub fn judge(
 }
 
 /// Returns the cell that each place stands for, and the purity.
+///
+/// A place of the map stands for the cell where the robot most often was when it believed it was
+/// there. A place that was never visited stands for the cell at its position on the map, if it has
+/// one. O(visits · log places).
 pub(super) fn stands_for(
     map: &MapView,
     visits: &[PlaceVisit],
@@ -362,7 +386,12 @@ mod tests {
 
     fn judged(maze: &Maze, truth: &TrueGraph, map: &(MapView, Vec<PlaceVisit>)) -> MapJudgement {
         let gone = (0..truth.ways().len()).collect();
-        judge(&map.0, &map.1, truth, &gone, (maze.grid(), 1.0))
+        let squares = Squares {
+            grid: maze.grid(),
+            pitch: 1.0,
+        };
+        let (stands_for, purity) = stands_for(&map.0, &map.1, squares);
+        judge(&map.0, &stands_for, purity, truth, &gone)
     }
 
     fn rules() -> impl Strategy<Value = PlaceRule> {

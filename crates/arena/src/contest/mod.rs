@@ -5,9 +5,11 @@
 //! compared with the drawing's [`TrueGraph`], which it never sees.
 //! A [`SteppedContest`] is played action by action.
 
+mod claim;
 mod condition;
 #[cfg(test)]
 mod entry_tests;
+mod evidence;
 mod ideal;
 mod judgement;
 mod paint;
@@ -20,12 +22,14 @@ mod true_graph;
 mod wanderers;
 mod whereabouts;
 
+pub use claim::Claim;
 pub use condition::Condition;
 pub(crate) use condition::with_door;
-pub use judgement::{MapJudgement, judge};
+pub use evidence::{Evidence, TrueVisits};
+pub use judgement::MapJudgement;
 pub(crate) use pathfinder::Pathfinder;
 pub use play::{
-    Claim, Contest, ContestError, ContestRecord, Home, LearnRecord, LocateOutcome, Located, Moment,
+    Contest, ContestError, ContestRecord, Home, LearnRecord, LocateOutcome, Located, Moment,
 };
 pub use show::{FoundOut, ShowRecord, WayHome};
 pub use stepped::{SteppedContest, TaskRecord};

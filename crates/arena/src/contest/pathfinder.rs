@@ -3,7 +3,7 @@ use core::error::Error;
 use tolman_maps::diktiometry::ObservedMove;
 use tolman_robot::{
     Compass, Guess, Landmark, MapView, Mapper, Ranges, Robot, Rolls, SensesLandmarks, Standing,
-    System, Task, TurnTranslate,
+    System, Task, TurnTranslate, VisitNaming,
 };
 use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig, Eye, Wayfinder};
 
@@ -54,12 +54,20 @@ impl<E> Mapper for Pathfinder<E> {
         }
     }
 
+    fn visit_naming(&self) -> VisitNaming {
+        self.learner.visit_naming()
+    }
+
     fn visits(&self) -> Vec<Option<u32>> {
         self.learner.visits()
     }
 
     fn certainty(&self) -> Option<f64> {
         self.learner.certainty()
+    }
+
+    fn doubt(&self) -> Option<String> {
+        self.learner.doubt()
     }
 
     fn map_bytes(&self) -> Option<usize> {

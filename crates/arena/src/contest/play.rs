@@ -1,5 +1,4 @@
 use alloc::borrow::Cow;
-use alloc::collections::BTreeSet;
 use core::time::Duration;
 
 use rand::{Rng, RngExt};
@@ -11,14 +10,16 @@ use tolman_robot::{Goal, Landmark, Standing, Task};
 use tolman_sim::DoorState;
 use tolman_systems::stream;
 
+use super::claim::Claim;
 use super::condition::{Condition, DOOR};
+use super::evidence::{Evidence, TrueVisits};
 use super::ideal::IdealObserver;
-use super::judgement::{MapJudgement, judge};
+use super::judgement::MapJudgement;
 use super::paint::Paint;
 use super::sites::Sites;
 use super::true_graph::TrueGraph;
 use super::wanderers::Sender;
-use super::whereabouts::{PlaceVisit, Squares, believed};
+use super::whereabouts::{Squares, believed};
 use crate::course::{Course, Terrain};
 use crate::registry::{
     Registry, RobotEntry, RobotKind, Schooling, Settings, Setup, Start, SystemEntry,
@@ -113,6 +114,8 @@ pub struct LearnRecord {
     pub certainty: Option<f64>,
     /// Quality of the system's map, compared with the truth.
     pub judgement: MapJudgement,
+    /// The judge's evidence.
+    pub evidence: Evidence,
     /// Driven distance over the length of all corridors.
     pub driven: f64,
     /// Number of time steps.
@@ -125,28 +128,6 @@ pub struct LearnRecord {
     pub map_bytes: Option<usize>,
     /// Computing time without the simulator; `None` if it was not measured.
     pub thinking: Option<Duration>,
-}
-
-/// A system's verdict on its own map.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Claim {
-    /// Right and complete: the system says that it is done.
-    Right,
-    /// Wrong or unfinished: the system gave up, or considers its map more likely wrong than right.
-    Wrong,
-    /// Undecided: its time ran out, or being done says nothing about its map.
-    Undecided,
-}
-
-impl Claim {
-    fn of(end: &TaskEnd, claims: bool, certainty: Option<f64>) -> Self {
-        match end {
-            TaskEnd::GaveUp { .. } => Self::Wrong,
-            _ if certainty.is_some_and(|certainty| certainty < 0.5) => Self::Wrong,
-            TaskEnd::Done if claims => Self::Right,
-            TaskEnd::Done | TaskEnd::OutOfTime => Self::Undecided,
-        }
-    }
 }
 
 impl LearnRecord {
@@ -539,57 +520,6 @@ pub(super) struct Driven {
     pub(super) metres: f64,
 }
 
-/// True positions of a robot while it learned.
-#[derive(Default)]
-pub(super) struct TrueVisits {
-    /// The cell in which the robot came to each place of its map.
-    arrivals: Vec<Cell>,
-    /// Number of time steps so far.
-    steps: usize,
-    /// Place that the system believed in after each action.
-    beliefs: Vec<PlaceVisit>,
-}
-
-impl TrueVisits {
-    /// Records the result of an action, before which the robot was at `before`. A system may name a
-    /// place for each time step.
-    pub(super) fn note(&mut self, outing: &dyn Outing, before: Point, squares: Squares) {
-        let after = outing.path().last().map_or(before, |pose| pose.position);
-        let visits = outing.visit_count();
-        let made = outing.path().get(self.steps..).unwrap_or(&[]);
-        self.steps += made.len();
-        if !made.is_empty() && self.arrivals.len() + made.len() == visits {
-            let cells = made.iter().map(|pose| squares.cell_at(pose.position));
-            self.arrivals.extend(cells);
-            return;
-        }
-        while self.arrivals.len() + 1 < visits {
-            self.arrivals.push(squares.cell_at(before));
-        }
-        if self.arrivals.len() < visits {
-            self.arrivals.push(squares.cell_at(after));
-        }
-        if visits == 0 {
-            let cell = squares.cell_at(after);
-            let place = believed(&outing.belief(), || outing.map());
-            self.beliefs
-                .extend(place.map(|place| PlaceVisit { place, cell }));
-        }
-    }
-
-    /// Returns the places that the system says it visited, `named`, in order, with the cells where
-    /// the robot truly was.
-    fn visits(self, named: Vec<Option<u32>>) -> Vec<PlaceVisit> {
-        if named.is_empty() {
-            return self.beliefs;
-        }
-        let pairs = named.into_iter().zip(self.arrivals);
-        let visit =
-            |(place, cell): (Option<u32>, Cell)| place.map(|place| PlaceVisit { place, cell });
-        pairs.filter_map(visit).collect()
-    }
-}
-
 impl Bout {
     pub(super) fn new(contest: &Contest<'_>, outing: Box<dyn Outing>) -> Self {
         let pitch = outing.course().pitch();
@@ -744,11 +674,10 @@ impl Bout {
         kidnapping: Option<(Cell, Direction)>,
         watch: &mut impl FnMut(&dyn Outing, Moment),
     ) -> LearnRecord {
-        let squares = self.squares;
         let pursuit = self.begin_to_learn(kidnapping);
         let mut been = TrueVisits::default();
         let driven = self.pursue(pursuit, |outing, before| {
-            been.note(outing, before, squares);
+            been.note(outing, before);
             watch(outing, Moment::Acted);
         });
         self.learned(driven, been)
@@ -767,23 +696,19 @@ impl Bout {
     /// Returns the record of a learning run from its drive and the places where the robot truly
     /// was.
     pub(super) fn learned(&mut self, driven: Driven, been: TrueVisits) -> LearnRecord {
-        let squares = self.squares;
-        let visits = been.visits(self.outing.visits());
         let map = self.outing.map();
-        let path = &self.outing.path()[driven.from..];
-        let cells = path.iter().map(|pose| squares.cell_at(pose.position));
-        let gone: BTreeSet<usize> = self.truth.gone(cells);
-        let scale = (squares.grid, squares.pitch);
-        let judgement = judge(&map, &visits, &self.truth, &gone, scale);
-        self.sites = Sites::of(&map, &visits, squares);
+        let evidence = been.evidence(&*self.outing, driven.from);
+        let judgement = evidence.judge(&map, &self.truth);
+        self.sites = Sites::of(&map, evidence.cells(), self.squares);
         let certainty = self.outing.certainty();
         LearnRecord {
-            claim: Claim::of(&driven.end, self.claims, certainty),
+            claim: Claim::of(&driven.end, self.claims, &*self.outing),
             certainty,
             end: driven.end,
             judgement,
+            evidence,
             driven: driven.metres / self.scale(),
-            steps: (path.len() - 1) as u32,
+            steps: (self.outing.path().len() - 1 - driven.from) as u32,
             bumps: driven.bumps,
             places: map.places.len(),
             map_bytes: self.outing.map_bytes(),

@@ -1,10 +1,10 @@
 use alloc::collections::BTreeMap;
 
 use tolman_geom::{Point, Vector};
+use tolman_maze::Cell;
 use tolman_robot::{Guess, MapView, Position};
 
-use super::judgement::stands_for;
-use super::whereabouts::{PlaceVisit, Squares, offset};
+use super::whereabouts::{Squares, offset};
 
 /// True positions of a learned map.
 #[derive(Clone, Debug, Default)]
@@ -16,9 +16,8 @@ pub(super) struct Sites {
 }
 
 impl Sites {
-    /// Returns the true positions of a map whose places were visited as `visits` say.
-    pub(super) fn of(map: &MapView, visits: &[PlaceVisit], squares: Squares) -> Self {
-        let (cells, _) = stands_for(map, visits, squares);
+    /// Returns the true positions of a map whose places stand for these cells.
+    pub(super) fn of(map: &MapView, cells: BTreeMap<u32, Cell>, squares: Squares) -> Self {
         let placed = map.places.iter();
         let placed = placed.filter_map(|place| Some((place, *cells.get(&place.id)?)));
         let offset = offset(placed, squares);
@@ -52,7 +51,7 @@ impl Sites {
 
 #[cfg(test)]
 mod tests {
-    use tolman_maze::{Cell, Grid};
+    use tolman_maze::Grid;
     use tolman_robot::MapPlace;
 
     use super::*;
@@ -72,11 +71,8 @@ mod tests {
             places: vec![place(0, 0.0), place(1, 4.0)],
             links: Vec::new(),
         };
-        let visit = |place, x| PlaceVisit {
-            place,
-            cell: Cell::new(x, 1),
-        };
-        let sites = Sites::of(&map, &[visit(0, 1), visit(1, 3)], squares);
+        let cells = BTreeMap::from([(0, Cell::new(1, 1)), (1, Cell::new(3, 1))]);
+        let sites = Sites::of(&map, cells, squares);
         let here = Point::new(7.2, 3.1);
         let guess = |at, weight| Guess { at, weight };
         let belief = [

@@ -7,7 +7,8 @@ use tolman_geom::Point;
 use tolman_maze::{Cell, Direction};
 use tolman_robot::Standing;
 
-use super::play::{Bout, Contest, ContestError, LearnRecord, Pursuit, TrueVisits};
+use super::evidence::TrueVisits;
+use super::play::{Bout, Contest, ContestError, LearnRecord, Pursuit};
 use super::show::{FoundOut, WayHome};
 use crate::Outing;
 use crate::registry::{Schooling, SystemEntry};
@@ -114,11 +115,10 @@ impl SteppedContest {
 
     /// Makes the next action of the task under way and returns the task's result once it has ended.
     pub fn act(&mut self) -> Option<TaskRecord> {
-        let squares = self.bout.squares;
         let end = match &mut self.stage {
             Stage::Idle => None,
             Stage::Learning(pursuit, visits) => self.bout.go_on(pursuit, |outing, before| {
-                visits.note(outing, before, squares);
+                visits.note(outing, before);
             }),
             Stage::Localizing(pursuit, actions) => {
                 *actions += 1;

@@ -2,6 +2,8 @@ use tolman_geom::{Point, Vector};
 use tolman_maze::{Cell, Grid};
 use tolman_robot::{Guess, MapPlace, MapView, Position};
 
+use crate::course::Course;
+
 /// True position of a robot when it believed it was at a place of its map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PlaceVisit {
@@ -20,6 +22,14 @@ pub(super) struct Squares {
 }
 
 impl Squares {
+    /// Returns the cells of a course.
+    pub(super) fn of(course: &Course) -> Self {
+        Self {
+            grid: course.maze.grid(),
+            pitch: course.pitch(),
+        }
+    }
+
     /// Returns the cell of a point; outside the drawing, the nearest cell.
     pub(super) fn cell_at(self, point: Point) -> Cell {
         let along = |metres: f64, cells: u16| {

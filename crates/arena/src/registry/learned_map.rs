@@ -1,9 +1,14 @@
+use serde::Deserialize;
 use serde_json::Value;
 use tolman_draw::Drawing;
-use tolman_systems::Origin;
+use tolman_robot::MapView;
+use tolman_systems::{FileError, Origin, origin_of};
 
+use super::SystemEntry;
 use crate::BoxError;
-use crate::course::Terrain;
+use crate::contest::Evidence;
+use crate::course::{Course, Terrain};
+use crate::pioneer::body;
 
 /// A file that holds a learned map.
 #[derive(Clone, Debug)]
@@ -16,6 +21,68 @@ pub struct MapText {
     pub origin: Origin,
     /// Text of the whole file.
     pub text: String,
+    /// Evidence of the map for the judge; `None` if the file has none.
+    pub truth: Option<Evidence>,
+}
+
+/// The part of a map's file that is not the system's.
+#[derive(Deserialize)]
+struct Judged {
+    truth: Option<Evidence>,
+}
+
+impl MapText {
+    /// Reads the text of a map's file, of any system. `name` is the file's path.
+    ///
+    /// # Errors
+    /// [`FileError`] if the text has no header, or one of another format or version.
+    pub fn read(name: String, text: String) -> Result<Self, FileError> {
+        let (system, origin) = origin_of(&text)?;
+        let judged: Option<Judged> = serde_json::from_str(&text).ok();
+        Ok(Self {
+            name,
+            system,
+            origin,
+            text,
+            truth: judged.and_then(|judged| judged.truth),
+        })
+    }
+
+    /// Returns the text of a map's file, as its system wrote it, with the judge's evidence.
+    ///
+    /// # Errors
+    /// If the evidence cannot be written.
+    pub fn with_truth(text: &str, truth: &Evidence) -> Result<String, serde_json::Error> {
+        let truth = serde_json::to_string(truth)?;
+        let body = text.trim_end().trim_end_matches('}');
+        // Braces that the system's own fields end with stay.
+        let closed = text.trim_end().len() - body.len();
+        let braces = "}".repeat(closed.saturating_sub(1));
+        Ok(format!("{body}{braces},\"truth\":{truth}}}\n"))
+    }
+
+    /// Returns why the map is wrong or unfinished as one of `terrain`, in a sentence without a full
+    /// stop; `None` if it is right.
+    ///
+    /// # Errors
+    /// If the file has no evidence, or `terrain` does not fit.
+    pub fn complaint(
+        &self,
+        system: &dyn SystemEntry,
+        terrain: &Terrain,
+    ) -> Result<Option<String>, BoxError> {
+        let map = system.map(self)?;
+        let course = map.course(&self.origin.world, terrain)?;
+        let drawn = self.origin.drawing.as_ref();
+        if drawn.is_some_and(|drawn| *drawn != course.drawing()) {
+            let why = "it was learned in another world, or this one has been drawn again since";
+            return Ok(Some(why.to_owned()));
+        }
+        let truth = self.truth.as_ref();
+        let truth =
+            truth.ok_or("the file does not say where the robot truly was: learn it again")?;
+        Ok(truth.complaint(&map.view()?, &course, system.places()))
+    }
 }
 
 /// A learned map, as the command shows it.
@@ -45,12 +112,21 @@ pub trait LearnedMap {
         Err("no way can be planned on such a map".into())
     }
 
-    /// Returns why the map is wrong or unfinished as a map of `terrain`; `None` if it is right.
+    /// Returns places and links as the judge reads them.
     ///
     /// # Errors
-    /// If `terrain` does not fit, or such maps cannot be checked.
-    fn complaint(&self, _terrain: &Terrain) -> Result<Option<String>, BoxError> {
+    /// If such maps cannot be checked.
+    fn view(&self) -> Result<MapView, BoxError> {
         Err("such a map cannot be checked".into())
+    }
+
+    /// Returns `terrain` as the course on which the map was learned, for a robot like the one that
+    /// learned it.
+    ///
+    /// # Errors
+    /// If `terrain` does not fit.
+    fn course(&self, world: &str, terrain: &Terrain) -> Result<Course, BoxError> {
+        Ok(terrain.course(world, &body())?)
     }
 }
 

@@ -96,6 +96,10 @@ impl LearnedMap for ViewFile {
         })
     }
 
+    fn view(&self) -> Result<MapView, BoxError> {
+        Ok(self.view.clone())
+    }
+
     fn drawing(&self, terrain: &Terrain) -> Result<Drawing, BoxError> {
         if self
             .view

@@ -7,7 +7,7 @@ use tolman_maps::cpm::{
     CpMap, CpmError, Junction, JunctionId, Location, MapDoubt, Plan, Port, Sign,
 };
 use tolman_robot::{
-    Goal, Guess, MapLink, MapPlace, MapView, Mapper, Position, Standing, System, Task,
+    Goal, Guess, MapLink, MapPlace, MapView, Mapper, Position, Standing, System, Task, VisitNaming,
 };
 
 use super::common_patterns::CommonPatterns;
@@ -288,7 +288,7 @@ impl Cpm {
         layer.optimize()?;
         let walked = layer.explorer().mapper.traversals();
         let is_found = done == Done::Reached && !matches!(aim, Aim::Explore | Aim::Check);
-        if let Some(doubt) = self.doubt().filter(|_| !is_found) {
+        if let Some(doubt) = self.map_doubt().filter(|_| !is_found) {
             return Ok(self.begin_anew(doubt));
         }
         Ok(match done {
@@ -316,7 +316,7 @@ impl Cpm {
         let is_open = |place: &Junction| place.open_ports().next().is_some();
         let is_whole = !mapper.map().junctions().any(|(_, place)| is_open(place));
         // A doubtful map need not be checked.
-        if is_whole && self.doubt().is_some() {
+        if is_whole && self.map_doubt().is_some() {
             return Aim::Explore;
         }
         self.checked += u32::from(is_whole);
@@ -324,7 +324,7 @@ impl Cpm {
     }
 
     /// Returns the reason to doubt its map, or `None` if it finds none.
-    fn doubt(&self) -> Option<MapDoubt> {
+    fn map_doubt(&self) -> Option<MapDoubt> {
         self.explorer()?.mapper.doubt(self.apart())
     }
 
@@ -483,8 +483,19 @@ impl Mapper for Cpm {
         self.explorer()?.mapper.certainty(self.apart())
     }
 
+    fn doubt(&self) -> Option<String> {
+        let open = self.explorer()?.mapper.map().open_ports().count();
+        (open > 0).then(|| {
+            format!("{open} of its ports are unexplored: give it more --steps, or another --seed")
+        })
+    }
+
     fn map_bytes(&self) -> Option<usize> {
         self.layer.as_ref().map(|layer| layer.map().bytes())
+    }
+
+    fn visit_naming(&self) -> VisitNaming {
+        VisitNaming::EachArrival
     }
 
     fn visits(&self) -> Vec<Option<u32>> {
@@ -493,8 +504,9 @@ impl Mapper for Cpm {
     }
 }
 
-/// Returns a map as places and links; a fragment leads both ways.
-fn view(map: &CpMap) -> MapView {
+/// Returns a map as places and links; a fragment leads both ways. O(map).
+#[must_use]
+pub fn view(map: &CpMap) -> MapView {
     let place = |(id, junction): (JunctionId, &Junction)| MapPlace {
         id: id.0,
         position: None,

@@ -6,7 +6,7 @@ use tolman_maps::diktiometry::{
 };
 use tolman_robot::{
     Compass, Guess, Landmark, MapView, Mapper, Ranges, Robot, Rolls, SensesLandmarks, Standing,
-    System, Task, TurnTranslate,
+    System, Task, TurnTranslate, VisitNaming,
 };
 
 use super::noticing::{BreakOff, sought};
@@ -194,8 +194,16 @@ impl<E> Mapper for Diktiometer<E> {
         self.observer()?.certainty()
     }
 
+    fn doubt(&self) -> Option<String> {
+        self.observer()?.self_check().complaint()
+    }
+
     fn map_bytes(&self) -> Option<usize> {
         self.observer()?.map_bytes()
+    }
+
+    fn visit_naming(&self) -> VisitNaming {
+        VisitNaming::EachArrival
     }
 
     fn visits(&self) -> Vec<Option<u32>> {

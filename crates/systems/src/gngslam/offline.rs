@@ -8,7 +8,7 @@ use tolman_maps::place_map::{
 };
 use tolman_robot::{
     Bumps, Guess, MapView, Mapper, Position, Robot, Rolls, Standing, System, TakesSnapshots, Task,
-    TurnTranslate,
+    TurnTranslate, VisitNaming,
 };
 
 use super::{Wanderer, WandererConfig, WandererError};
@@ -156,6 +156,10 @@ impl Mapper for OfflineSlam {
 
     fn map_bytes(&self) -> Option<usize> {
         self.learned().map(PlaceMap::bytes)
+    }
+
+    fn visit_naming(&self) -> VisitNaming {
+        VisitNaming::EachArrival
     }
 
     fn visits(&self) -> Vec<Option<u32>> {

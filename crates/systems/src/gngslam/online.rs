@@ -572,6 +572,20 @@ impl Mapper for OnlineSlam {
         self.map.belief()
     }
 
+    fn doubt(&self) -> Option<String> {
+        let is_goal = |sighting: &LandmarkSighting| sighting.landmark == Landmark::Goal;
+        match (self.map.is_localized(), self.sightings.iter().any(is_goal)) {
+            (false, _) => Some(
+                "the robot does not know where it is on it: give it more --steps, or another --seed"
+                    .to_owned(),
+            ),
+            (true, false) => Some(
+                "the robot never sensed the goal: learn longer, --set quiet_looks=600".to_owned(),
+            ),
+            (true, true) => None,
+        }
+    }
+
     fn map_bytes(&self) -> Option<usize> {
         Some(self.map.bytes())
     }

@@ -4,7 +4,7 @@ use rand::Rng;
 use tolman_control::RingError;
 use tolman_maps::scan_map::ScanChart;
 use tolman_maze::Direction;
-use tolman_robot::{Guess, MapView, Mapper, Ring, Standing, Task};
+use tolman_robot::{Guess, MapView, Mapper, Ring, Standing, Task, VisitNaming};
 
 use super::better::{BetterConfig, BetterExplorer, BetterMap, BetterNavigator};
 use crate::{Brain, Doing, RolledStep};
@@ -47,16 +47,6 @@ impl BetterMslst {
                 explorer.learned().chart()
             }
             Phase::Navigation(navigator) => navigator.chart().clone(),
-        }
-    }
-
-    /// Returns the reason why the map is unfinished or doubtful, as a sentence without a full stop;
-    /// `None` if there is none.
-    #[must_use]
-    pub fn doubt(&self) -> Option<&'static str> {
-        match &self.phase {
-            Phase::Exploration(explorer) | Phase::Explored(explorer, _) => explorer.doubt(),
-            Phase::Navigation(navigator) => navigator.chart().doubt(),
         }
     }
 
@@ -146,6 +136,10 @@ impl Mapper for BetterMslst {
         self.brain().belief()
     }
 
+    fn visit_naming(&self) -> VisitNaming {
+        self.brain().visit_naming()
+    }
+
     fn visits(&self) -> Vec<Option<u32>> {
         self.brain().visits()
     }
@@ -156,6 +150,13 @@ impl Mapper for BetterMslst {
 
     fn certainty(&self) -> Option<f64> {
         self.brain().certainty()
+    }
+
+    fn doubt(&self) -> Option<String> {
+        match &self.phase {
+            Phase::Exploration(explorer) | Phase::Explored(explorer, _) => explorer.doubt(),
+            Phase::Navigation(navigator) => navigator.chart().doubt().map(ToOwned::to_owned),
+        }
     }
 
     fn map_bytes(&self) -> Option<usize> {

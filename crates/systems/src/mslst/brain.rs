@@ -124,6 +124,22 @@ impl Mapper for Mslst {
         self.brain().belief()
     }
 
+    fn doubt(&self) -> Option<String> {
+        let graph = &self.learned()?.graph;
+        let why = "learn longer, --set graph_actions=20000";
+        if !graph.ids().any(|id| graph.is_destination(id)) {
+            return Some(format!("the robot never came to the destination: {why}"));
+        }
+        let lost = graph.ids().filter(|id| graph.distance(*id).is_none());
+        let lost = lost.count();
+        (2 * lost > graph.len()).then(|| {
+            format!(
+                "no way to the destination is known from {lost} of {} nodes: {why}",
+                graph.len()
+            )
+        })
+    }
+
     fn map_bytes(&self) -> Option<usize> {
         self.learned().map(|map| map.bytes())
     }

@@ -5,7 +5,7 @@ use tolman_control::{CorridorDetector, RingError, View};
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_maps::pose_graph::PoseEdgeKind;
 use tolman_maps::scan_matching::{ScanMatching, ScanMatchingError, ScanStep};
-use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper};
+use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper, VisitNaming};
 
 use super::place::ways_on;
 use super::site_way::{middle_of, ring};
@@ -413,6 +413,10 @@ impl Mapper for PlacesMapper {
 
     fn belief(&self) -> Vec<Guess> {
         self.matching.belief()
+    }
+
+    fn visit_naming(&self) -> VisitNaming {
+        VisitNaming::EachArrival
     }
 
     fn visits(&self) -> Vec<Option<u32>> {

@@ -3,7 +3,7 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use thiserror::Error;
 use tolman_geom::{Point, Vector};
 use tolman_maps::scan_matching::{ScanMatching, ScanStep};
-use tolman_robot::{Guess, MapView, Mapper, Position};
+use tolman_robot::{Guess, MapView, Mapper, Position, VisitNaming};
 
 use super::{PlacesConfig, PlacesError, PlacesMapper, Site, SiteWay};
 
@@ -173,6 +173,10 @@ impl<O: OfSites> Mapper for SiteMapper<O> {
 
     fn belief(&self) -> Vec<Guess> {
         (self.mapper.as_ref()).map_or_else(Vec::new, Mapper::belief)
+    }
+
+    fn visit_naming(&self) -> VisitNaming {
+        VisitNaming::EachArrival
     }
 
     fn visits(&self) -> Vec<Option<u32>> {

@@ -111,6 +111,7 @@ pub(super) fn carry_out(
         system.name(),
         &arguments.looks,
         keeper,
+        |_, _| {},
     )?;
     let arrived = ended.end == TaskEnd::Done && outing.landmark() == Some(Landmark::Goal);
     if arguments.looks.json {

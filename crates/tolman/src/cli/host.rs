@@ -123,7 +123,8 @@ pub(super) fn carry_out(
     let task = Task::Reach(Goal::Landmark(Landmark::Goal));
     let word = arguments.program.join(" ");
     let keeper = Keeper::of_nothing("host");
-    let pursued = send(&mut *outing, task, &setup, &word, &arguments.looks, keeper)?;
+    let looks = &arguments.looks;
+    let pursued = send(&mut *outing, task, &setup, &word, looks, keeper, |_, _| {})?;
     arguments.tell(&*outing, &world, &pursued, out)
 }
 

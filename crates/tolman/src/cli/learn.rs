@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use serde_json::{Value, json};
 use tolman_arena::Outing;
-use tolman_arena::run::TaskEnd;
+use tolman_arena::contest::{Claim, TrueVisits};
 use tolman_robot::{Goal, Landmark, Task};
 
 use super::looks::Looks;
@@ -149,29 +149,44 @@ pub(super) fn carry_out(
     let task = arguments.until;
     let keeper = arguments.keeper(&*outing, system.name(), from.as_ref(), former)?;
     let looks = &arguments.looks;
-    let pursued = send(&mut *outing, task, &setup, system.name(), looks, keeper);
+    let mut been = TrueVisits::default();
+    let see = |outing: &dyn Outing, before| been.note(outing, before);
+    let pursued = send(
+        &mut *outing,
+        task,
+        &setup,
+        system.name(),
+        looks,
+        keeper,
+        see,
+    );
+    let truth = been.evidence(&*outing, 0);
     let text = outing.map_file().map_err(anyhow::Error::from_boxed)?;
+    let text = text.map(|text| MapText::with_truth(&text, &truth));
+    let text = text.transpose()?;
     if let (Err(Failure::Interrupted(_)), Some(text)) = (&pursued, &text) {
         file::write(&arguments.out, text)?;
     }
     let Pursued { ended, told } = pursued?;
-    let complaint = match &ended.end {
-        TaskEnd::Done => outing.complaint(task),
-        TaskEnd::OutOfTime => {
-            Some("it ran out of time before it had learned all: give it more --steps".to_owned())
-        }
-        TaskEnd::GaveUp { why } => Some(why.clone()),
-    };
+    let own = Claim::complaint(&ended.end, task, &*outing);
     let Some(text) = text else {
-        let why = complaint.unwrap_or_else(|| "it keeps none".to_owned());
+        let why = own.unwrap_or_else(|| "it keeps none".to_owned());
         return Err(Failure::Failed(anyhow!(
             "no map of {} was learned: {why}",
             setup.world
         )));
     };
+    // The judge knows nothing of where the robot was before a map that it continued.
+    let is_judged = task == Task::Explore && setup.from.is_none();
+    let judged =
+        is_judged.then(|| truth.complaint(&outing.map(), outing.course(), system.places()));
     let map = of_text(&arguments.out, text.clone())?;
     let map = system.map(&map).map_err(of_registry)?;
     file::write(&arguments.out, text)?;
+    // A system that does not claim that its map is whole is not reproached for it.
+    let claims = system.claims() || outing.course().is_free();
+    let found = judged.clone().flatten();
+    let complaint = own.or_else(|| found.clone().filter(|_| claims));
     if arguments.looks.json {
         let json = json!({
             "system": system.name(),
@@ -180,6 +195,7 @@ pub(super) fn carry_out(
             "steps": ended.steps,
             "actions": ended.actions,
             "bumps": outing.bumped().len(),
+            "right": judged.map(|found| found.is_none()),
             "complaint": complaint.clone().map_or(Value::Null, Value::String),
             "map": map.json(),
         });
@@ -188,6 +204,9 @@ pub(super) fn carry_out(
         writeln!(out, "{told}")?;
         for line in map.lines().iter().take(MOST_LINES) {
             writeln!(out, "{line}")?;
+        }
+        if let (Some(found), None) = (&found, &complaint) {
+            writeln!(out, "as a map of places: {found}")?;
         }
         tell_replay(&arguments.looks, out)?;
     }

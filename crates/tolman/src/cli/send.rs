@@ -6,6 +6,7 @@ use std::io::Write;
 use anyhow::{Context, anyhow};
 use tolman_arena::run::{self, Ended, TaskEnd};
 use tolman_arena::{BoxError, Outing};
+use tolman_geom::Point;
 use tolman_robot::{Standing, Task};
 
 use super::bar::Doing;
@@ -24,7 +25,8 @@ pub(super) struct Pursued {
 }
 
 /// Lets a system pursue a task to its end, shows it, and writes the requested files. `keeper` saves
-/// the run if it is interrupted.
+/// the run if it is interrupted. `see` is shown the outing after each action, and where the robot
+/// was before.
 ///
 /// # Errors
 /// If robot or system fail, the run is interrupted, or a file cannot be written.
@@ -35,6 +37,7 @@ pub(super) fn send(
     word: &str,
     looks: &Looks,
     mut keeper: Keeper,
+    mut see: impl FnMut(&dyn Outing, Point),
 ) -> Result<Pursued, Failure> {
     let overwrite = looks.overwrite()?;
     let stop = interrupt::flag()?;
@@ -48,7 +51,12 @@ pub(super) fn send(
     let mut done = Done::default();
     let mut broken_off = None;
     let ended = run::until_done(outing, |outing| {
+        let before = outing
+            .path()
+            .last()
+            .map_or_else(Point::origin, |pose| pose.position);
         let standing = outing.act(task)?;
+        see(outing, before);
         if let Some(film) = &mut film {
             film.see(outing);
         }

@@ -2,8 +2,8 @@ use serde_json::{Value, json};
 use tolman_draw::Drawing;
 use tolman_geom::Pose;
 use tolman_maps::cpm::{CpMap, JunctionId, PlanLeg, Turn};
-use tolman_maze::{Cell, Maze};
-use tolman_robot::{Landmark, Task};
+use tolman_maze::Maze;
+use tolman_robot::{Landmark, MapView};
 use tolman_sim::robots::Epuck;
 use tolman_systems::Origin;
 use tolman_systems::cpm::{
@@ -11,10 +11,7 @@ use tolman_systems::cpm::{
 };
 
 use crate::course::{Course, Terrain};
-use crate::cpm::{
-    Layout, TrueFragments, epuck, epuck_course_on, is_whole_map_right, patience, ring_measures,
-    walker_config,
-};
+use crate::cpm::{Layout, epuck, epuck_course_on, patience, ring_measures, walker_config};
 use crate::drawing;
 use crate::pioneer::{CORRIDOR_WIDTH, body};
 use crate::registry::{
@@ -262,27 +259,17 @@ impl Ground {
     {
         let origin = setup.origin(&self.course);
         let course = self.course;
-        let at_start = course.start().is_ok_and(|start| start == self.start);
         let steps = setup.steps.unwrap_or_else(|| patient(&course));
         if course.is_free() {
             let sent = Sent::new(course, robot, steps, cpm)
                 .choosing(cpm::Cpm::on)
-                .keeping(move |cpm, _| keep(cpm, mode, &origin))
-                .judged(|cpm, task| {
-                    let map = cpm.explorer()?.mapper.map();
-                    (task == Task::Explore).then(|| unfinished(map))?
-                });
+                .keeping(move |cpm, _| keep(cpm, mode, &origin));
             return Box::new(sent);
         }
-        let (world, maze) = (course.world.clone(), course.maze.clone());
-        let ours = maze.clone();
+        let (world, ours) = (course.world.clone(), course.maze.clone());
         let sent = Sent::new(course, robot, steps, cpm)
             .choosing(cpm::Cpm::on)
             .keeping(move |cpm, _| keep(cpm, mode, &origin))
-            .judged(move |cpm, task| {
-                let map = cpm.explorer()?.mapper.map();
-                (task == Task::Explore).then(|| complaint(map, &maze, at_start))?
-            })
             .lying(move |cpm| {
                 let layout = cpm
                     .explorer()
@@ -320,38 +307,6 @@ fn keep(cpm: &cpm::Cpm, mode: Mode, origin: &Origin) -> Result<Option<String>, B
         map: explorer.mapper.map().clone(),
     };
     Ok(Some(file.to_json()?))
-}
-
-/// Returns why a map of a world with free walls is unfinished, by its own account; `None` if it is
-/// not. The true number of fragments is unknown there.
-fn unfinished(map: &CpMap) -> Option<String> {
-    let open = map.open_ports().count();
-    (open > 0).then(|| {
-        format!("{open} of its ports are unexplored: give it more --steps, or another --seed")
-    })
-}
-
-/// Returns why a map is not that of the whole maze; `None` if it is. `at_start` says whether the
-/// robot began at the maze's start.
-fn complaint(map: &CpMap, maze: &Maze, at_start: bool) -> Option<String> {
-    let (found, there_are) = (map.fragments().len(), TrueFragments::of(maze).count());
-    if found != there_are as usize {
-        let mut cells = maze.grid().cells();
-        let room = cells.find(|cell| maze.is_room(*cell)).map(|Cell { x, y }| {
-            format!(", which has an open room at cell {x}, {y}, where the robot finds no corridors")
-        });
-        return Some(format!(
-            "{found} fragments for the {there_are} of the maze{}: the robot took some for others, or overlooked them; try \
-             --system cpm-better, or another --seed",
-            room.unwrap_or_default()
-        ));
-    }
-    if at_start && !is_whole_map_right(map, maze) {
-        return Some(format!(
-            "its {found} fragments are not joined as those of the maze: try --system cpm-better, or another --seed"
-        ));
-    }
-    None
 }
 
 impl LearnedMap for MapFile {
@@ -454,19 +409,12 @@ impl LearnedMap for MapFile {
         Ok(plan.map(|plan| plan.legs.iter().map(step).collect()))
     }
 
-    fn complaint(&self, terrain: &Terrain) -> Result<Option<String>, BoxError> {
-        if let Terrain::Free(_) = terrain {
-            return match unfinished(&self.map) {
-                Some(why) => Ok(Some(why)),
-                None => Err(
-                    "the map has no unexplored ports, but nobody knows the true fragments of a world with free walls: \
-                     drive by it with `tolman drive`"
-                        .into(),
-                ),
-            };
-        }
-        let course = course_of(self, terrain)?;
-        Ok(complaint(&self.map, &course.maze, true))
+    fn view(&self) -> Result<MapView, BoxError> {
+        Ok(cpm::view(&self.map))
+    }
+
+    fn course(&self, _world: &str, terrain: &Terrain) -> Result<Course, BoxError> {
+        course_of(self, terrain)
     }
 }
 

@@ -9,7 +9,9 @@ use tolman_maps::diktiometry::{
     Action, DecidingWalk, JournalLength, Link, Observer, OpenPair, PlaceId,
 };
 use tolman_maze::Direction;
-use tolman_robot::{Guess, Landmark, MapView, Mapper, Scan, SensesLandmarks, Standing, Task};
+use tolman_robot::{
+    Guess, Landmark, MapView, Mapper, Scan, SensesLandmarks, Standing, Task, VisitNaming,
+};
 use tolman_sim::Bounds;
 use tolman_systems::diktiometry::{
     Diktiometer, DiktiometerConfig, LandmarkSpot, LaserEye, Wayfinder,
@@ -19,8 +21,8 @@ use tolman_systems::stream;
 use crate::contest::{Pathfinder, PlaceRule};
 use crate::course::{Course, Terrain};
 use crate::diktiometry::{
-    MapScore, Office, OfficeConfig, PlaceCue, Survey, SurveyConfig, SurveyFile, SurveyorConfig,
-    mapper, office_robot,
+    Office, OfficeConfig, PlaceCue, Survey, SurveyConfig, SurveyFile, SurveyorConfig, mapper,
+    office_robot,
 };
 use crate::drawing::diktiometry::map_over_world;
 use crate::episode::START_STREAM;
@@ -438,6 +440,10 @@ impl Outing for Surveying {
         self.survey.observer().belief()
     }
 
+    fn visit_naming(&self) -> VisitNaming {
+        VisitNaming::EachArrival
+    }
+
     fn visits(&self) -> Vec<Option<u32>> {
         let survey = &self.survey;
         let paths = &survey.observer().map().paths;
@@ -466,35 +472,13 @@ impl Outing for Surveying {
         Ok(Some(file.to_json()?))
     }
 
-    fn complaint(&self, _task: Task) -> Option<String> {
-        complaint(&self.survey)
+    fn doubt(&self) -> Option<String> {
+        self.survey.observer().self_check().complaint()
     }
 
     fn trace(&self) -> Result<Vec<u8>, BoxError> {
         self.survey.robot().trace()
     }
-}
-
-fn complaint(survey: &Survey) -> Option<String> {
-    let MapScore {
-        places,
-        visited,
-        purity,
-        is_isomorphic,
-        ..
-    } = survey.score();
-    let there_are = survey.office().places(&[]).len();
-    if !is_isomorphic {
-        return Some(format!(
-            "{places} places for the {visited} that were visited, purity {purity:.3}: places look too much alike; try walls of more colours, --set colours=8. `tolman map show` lists the places that may be one"
-        ));
-    }
-    if visited < there_are {
-        return Some(format!(
-            "{visited} of {there_are} places were visited: give it more moves, --set moves=2000"
-        ));
-    }
-    None
 }
 
 /// A survey read from a file.
@@ -604,8 +588,13 @@ impl LearnedMap for Surveyed {
         Ok(Some(steps.chain(beyond).collect()))
     }
 
-    fn complaint(&self, _terrain: &Terrain) -> Result<Option<String>, BoxError> {
-        Ok(complaint(&self.survey))
+    fn view(&self) -> Result<MapView, BoxError> {
+        Ok(Mapper::map(&self.file.observer))
+    }
+
+    fn course(&self, _world: &str, terrain: &Terrain) -> Result<Course, BoxError> {
+        let maze = &terrain.maze(OFFICE)?.maze;
+        Ok(Office::new(maze, self.file.office.config())?.course)
     }
 }
 

@@ -1,16 +1,13 @@
 use serde_json::{Value, json};
 use tolman_draw::Drawing;
 use tolman_geom::{Point, Pose};
-use tolman_maps::place_graph::PlaceGraph;
 use tolman_robot::{
     Body, Bumps, Landmark, MapView, Mapper, Ring, Rolls, TakesSnapshots, TurnTranslate, pioneer_2dx,
 };
 use tolman_sim::Model;
 use tolman_sim::robots::{Pioneer2dx, Pioneer2dxConfig};
 use tolman_systems::Origin;
-use tolman_systems::gngslam::{
-    ExplorationPolicy, LandmarkSighting, MapFile, OnlineSlam, OnlineSlamConfig,
-};
+use tolman_systems::gngslam::{ExplorationPolicy, MapFile, OnlineSlam, OnlineSlamConfig};
 
 use super::WIDE;
 use crate::course::{Course, Terrain};
@@ -250,8 +247,7 @@ impl Ground {
             config,
             steps,
         } = mission;
-        let (course, judged_on) = (self.course.clone(), self.course);
-        let known = sites.clone();
+        let course = self.course;
         let sent = Sent::new(course, robot, setup.steps.unwrap_or(steps), system)
             .laid_at(world_from_map)
             .counting(|system| system.graph().places().len())
@@ -261,17 +257,9 @@ impl Ground {
                     config,
                     graph: system.graph().clone(),
                     sightings: system.sightings().to_vec(),
-                    sites: with(&known, made),
+                    sites: with(&sites, made),
                 };
                 Ok(Some(file.to_json()?))
-            })
-            .judging(move |system, made, _task| {
-                let graph = system.graph();
-                if !graph.is_localized() {
-                    let why = "the robot does not know where it is on it: give it more --steps, or another --seed";
-                    return Some(why.to_owned());
-                }
-                complaint(graph, system.sightings(), &with(&sites, made), &judged_on)
             });
         Ok(Box::new(sent))
     }
@@ -282,56 +270,6 @@ impl Ground {
 fn with(before: &[Point], made: &[Founding]) -> Vec<Point> {
     let new = made.iter().skip(before.len()).map(|site| site.position);
     before.iter().copied().chain(new).collect()
-}
-
-/// Limit of the places' error in a right map, root mean square, m.
-const MOST_ERROR: f64 = 0.5;
-
-/// Distance within which a place covers the floor. In a maze it is a share of the corridors' width,
-/// in a world with free walls it is in m.
-const NEAR_IN_MAZE: f64 = 0.8;
-const NEAR: f64 = 1.5;
-
-/// Minimum share of the floor that a finished map covers.
-const MOST_COVERED: f64 = 0.9;
-
-/// Returns why a map is wrong or unfinished as one of this course; `None` if it is right. `sites`
-/// are the robot's true positions when each place was made.
-fn complaint(
-    graph: &PlaceGraph,
-    sightings: &[LandmarkSighting],
-    sites: &[Point],
-    course: &Course,
-) -> Option<String> {
-    let mut sensed = sightings.iter();
-    if !sensed.any(|sighting| sighting.landmark == Landmark::Goal) {
-        let why = "the robot never sensed the goal: learn longer, --set quiet_looks=600";
-        return Some(why.to_owned());
-    }
-    let laid = LaidOver::of(graph, sites)?;
-    if laid.error_m > MOST_ERROR {
-        return Some(format!(
-            "its places lie {:.1} m from where they truly are: try another --seed",
-            laid.error_m
-        ));
-    }
-    let near = match course.is_free() {
-        true => NEAR,
-        false => NEAR_IN_MAZE * course.corridor_width,
-    };
-    let cells: Vec<Point> = course
-        .starts()
-        .map(|cell| course.cell_centre(cell))
-        .collect();
-    let is_seen = |cell: &&Point| sites.iter().any(|site| (site - **cell).norm() <= near);
-    let seen = cells.iter().filter(is_seen).count();
-    let share = seen as f64 / cells.len().max(1) as f64;
-    (share < MOST_COVERED).then(|| {
-        format!(
-            "it has places near {:.0} % of the floor alone: learn longer, --set quiet_looks=600",
-            100.0 * share
-        )
-    })
 }
 
 impl LearnedMap for MapFile {
@@ -377,14 +315,9 @@ impl LearnedMap for MapFile {
         let laid = LaidOver::of(&self.graph, &self.sites).ok_or_else(|| {
             "the map has no true positions of its places, so it cannot be drawn over a world: leave --svg out"
         })?;
-        let mut map: MapView = self.graph.map();
+        let mut map = view(self);
         for place in &mut map.places {
             place.position = place.position.map(|at| laid.world_from_map.transform(at));
-        }
-        for sighting in &self.sightings {
-            if let Some(place) = map.places.get_mut(sighting.place as usize) {
-                place.landmark = Some(sighting.landmark);
-            }
         }
         Ok(places_over_world(&course, &map))
     }
@@ -415,23 +348,19 @@ impl LearnedMap for MapFile {
         Ok(way)
     }
 
-    fn complaint(&self, terrain: &Terrain) -> Result<Option<String>, BoxError> {
-        let course = course_of(self, terrain)?;
-        let drawn = self.origin.drawing.as_ref();
-        if drawn.is_some_and(|drawn| *drawn != course.drawing()) {
-            let why = "it was learned in another world, or this one has been drawn again since";
-            return Ok(Some(why.to_owned()));
-        }
-        if self.sites.is_empty() {
-            return Err("the map has no true positions of its places".into());
-        }
-        Ok(complaint(
-            &self.graph,
-            &self.sightings,
-            &self.sites,
-            &course,
-        ))
+    fn view(&self) -> Result<MapView, BoxError> {
+        Ok(view(self))
     }
+
+    fn course(&self, _world: &str, terrain: &Terrain) -> Result<Course, BoxError> {
+        course_of(self, terrain)
+    }
+}
+
+/// Returns the places and links of a map, with the landmarks.
+fn view(file: &MapFile) -> MapView {
+    let system = OnlineSlam::on(file.graph.clone(), file.config, 0);
+    system.with_sightings(file.sightings.clone()).map()
 }
 
 /// Returns the number of places where the goal was sensed.

@@ -2,6 +2,7 @@ use alloc::sync::Arc;
 
 use serde_json::{Value, json};
 use tolman_draw::Drawing;
+use tolman_robot::MapView;
 use tolman_systems::mslst::{self, GrowthRecord, Learned, MapFile, MslstConfig};
 use tolman_systems::{Actor, Origin};
 
@@ -113,10 +114,6 @@ impl SystemEntry for MslstEntry {
                     learned,
                 };
                 Ok(Some(file.to_json()?))
-            })
-            .judged(|actor, _| {
-                let map = actor.brain().learned();
-                map.and_then(|map| complaint(map))
             });
         Ok(Box::new(sent))
     }
@@ -143,25 +140,6 @@ impl SystemEntry for MslstEntry {
         let file = MapFile::from_json(&map.text).map_err(|error| because(&map.name, error))?;
         Ok(Box::new(file))
     }
-}
-
-fn complaint(map: &mslst::MslstMap) -> Option<String> {
-    let graph = &map.graph;
-    let lost = graph
-        .ids()
-        .filter(|id| graph.distance(*id).is_none())
-        .count();
-    if !graph.ids().any(|id| graph.is_destination(id)) {
-        let why =
-            "the robot never came to the destination: learn longer, --set graph_actions=20000";
-        return Some(why.to_owned());
-    }
-    (2 * lost > graph.len()).then(|| {
-        format!(
-            "no way to the destination is known from {lost} of {} nodes: learn longer, --set graph_actions=20000",
-            graph.len()
-        )
-    })
 }
 
 impl LearnedMap for MapFile {
@@ -234,7 +212,7 @@ impl LearnedMap for MapFile {
         Ok(path.map(|path| path.iter().map(ToString::to_string).collect()))
     }
 
-    fn complaint(&self, _terrain: &Terrain) -> Result<Option<String>, BoxError> {
-        Ok(complaint(&self.learned.map))
+    fn view(&self) -> Result<MapView, BoxError> {
+        Ok(self.learned.map.view())
     }
 }

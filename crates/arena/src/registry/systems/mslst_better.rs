@@ -4,14 +4,14 @@ use serde_json::{Value, json};
 use tolman_control::heading_of;
 use tolman_draw::Drawing;
 use tolman_geom::{Heading, Point, Pose};
-use tolman_maps::scan_map::{ScanChart, ScanPlace};
+use tolman_maps::scan_map::{CorridorMap, ScanChart, ScanPlace};
 use tolman_maze::Direction;
-use tolman_robot::Landmark;
+use tolman_robot::{Landmark, MapView};
 use tolman_systems::mslst::BetterMslst;
 use tolman_systems::mslst::better::{BetterConfig, BetterMap, BetterMapFile, BetterNavigator};
 use tolman_systems::{Actor, Origin};
 
-use crate::course::{Course, Terrain};
+use crate::course::Terrain;
 use crate::drawing::places_over_world;
 use crate::gngslam::LaidOver;
 use crate::mslst::better_config;
@@ -24,15 +24,6 @@ use crate::{BoxError, Founding, Outing, Sent};
 pub(super) struct MslstBetterEntry;
 
 const PRESETS: [(&str, &str); 1] = [("pioneer", "As in the tables, row Better")];
-
-/// Limit of the places' error in a right map, root mean square, m.
-const MOST_ERROR: f64 = 0.5;
-
-/// Distance within which a place covers the floor, as a share of the corridors' width.
-const NEAR: f64 = 0.8;
-
-/// Minimum share of the floor that a finished map covers.
-const LEAST_COVERED: f64 = 0.9;
 
 impl SystemEntry for MslstBetterEntry {
     fn name(&self) -> &'static str {
@@ -79,7 +70,6 @@ impl SystemEntry for MslstBetterEntry {
         let steps = setup
             .steps
             .unwrap_or_else(|| course.step_limit().saturating_mul(10));
-        let judged_on = course.clone();
         let sent = Sent::new(course, robot, steps, actor)
             .laid_at(world_from_map)
             .counting(|actor| actor.brain().place_count())
@@ -91,11 +81,6 @@ impl SystemEntry for MslstBetterEntry {
                     sites: sites(start, made),
                 };
                 Ok(Some(file.to_json()?))
-            })
-            .judging(move |actor, made, _task| {
-                let brain = actor.brain();
-                let doubt = brain.doubt().map(ToOwned::to_owned);
-                doubt.or_else(|| complaint(&brain.chart(), &sites(start, made), &judged_on))
             });
         Ok(Box::new(sent))
     }
@@ -144,35 +129,6 @@ fn laid(file: &BetterMapFile) -> Option<LaidOver> {
 fn laid_over(chart: &ScanChart, sites: &[Point]) -> Option<LaidOver> {
     let places = chart.places().iter().map(|place| place.position);
     LaidOver::of_places(places, sites)
-}
-
-/// Returns why a map is wrong or unfinished as one of this course; `None` if it is right. `sites`
-/// are the robot's true positions when each place was made.
-fn complaint(chart: &ScanChart, sites: &[Point], course: &Course) -> Option<String> {
-    if let Some(doubt) = chart.doubt() {
-        return Some(doubt.to_owned());
-    }
-    let laid = laid_over(chart, sites)?;
-    if laid.error_m > MOST_ERROR {
-        return Some(format!(
-            "its places lie {:.1} m from where they truly are: try another --seed",
-            laid.error_m
-        ));
-    }
-    let near = NEAR * course.corridor_width;
-    let (mut seen, mut cells) = (0, 0);
-    for cell in course.starts() {
-        let centre = course.cell_centre(cell);
-        cells += 1;
-        seen += u32::from(sites.iter().any(|site| (site - centre).norm() <= near));
-    }
-    let share = f64::from(seen) / f64::from(cells.max(1));
-    (share < LEAST_COVERED).then(|| {
-        format!(
-            "it has places near {:.0} % of the floor alone: give it more --steps",
-            100.0 * share
-        )
-    })
 }
 
 /// Returns the numbers of the places where the goal was sensed.
@@ -253,17 +209,8 @@ impl LearnedMap for BetterMapFile {
         Ok(way.map(|way| way.windows(2).map(|step| leg(places, step)).collect()))
     }
 
-    fn complaint(&self, terrain: &Terrain) -> Result<Option<String>, BoxError> {
-        let course = terrain.course(&self.origin.world, &body())?;
-        let drawn = self.origin.drawing.as_ref();
-        if drawn.is_some_and(|drawn| *drawn != course.drawing()) {
-            let why = "it was learned in another world, or this one has been drawn again since";
-            return Ok(Some(why.to_owned()));
-        }
-        if self.sites.is_empty() {
-            return Err("the map has no true positions of its places".into());
-        }
-        Ok(complaint(&self.chart, &self.sites, &course))
+    fn view(&self) -> Result<MapView, BoxError> {
+        Ok(CorridorMap::of(&self.chart, self.config.corridor_width).view())
     }
 }
 

@@ -2,7 +2,7 @@
 
 use tolman_maps::wall_map::ObserveError;
 use tolman_maze::Cell;
-use tolman_robot::{Guess, MapView, Mapper, Position};
+use tolman_robot::{Guess, MapView, Mapper, Position, VisitNaming};
 
 use super::maze_mouse::Stop;
 use super::{CellSight, MazeMouse};
@@ -30,6 +30,10 @@ impl<S: Search> Mapper for MazeMouse<S> {
 
     fn map_bytes(&self) -> Option<usize> {
         Some(self.walls.bytes())
+    }
+
+    fn visit_naming(&self) -> VisitNaming {
+        VisitNaming::EachArrival
     }
 
     fn visits(&self) -> Vec<Option<u32>> {

@@ -5,7 +5,7 @@ use tolman_control::{StuckBeams, heading_of, unit_of};
 use tolman_geom::{Point, nearest_on_segment};
 use tolman_maps::scan_map::{Advance, Clearings, CorridorMap, GroundWay, ScanMap, ScanMapConfig};
 use tolman_maze::Direction;
-use tolman_robot::{Guess, Landmark, MapView, Mapper, Position, Scan, Standing, Task};
+use tolman_robot::{Guess, Landmark, MapView, Mapper, Position, Scan, Standing, Task, VisitNaming};
 
 use super::reckoning::Reckoning;
 use super::stop::Stop;
@@ -120,7 +120,7 @@ impl BetterExplorer {
     /// Returns the reason why the map is unfinished or doubtful, as a sentence without a full stop;
     /// `None` if there is none.
     #[must_use]
-    pub fn doubt(&self) -> Option<&'static str> {
+    pub fn why_doubtful(&self) -> Option<&'static str> {
         match self.plan {
             Plan::Finished if self.knew_start && !self.knows_start() => {
                 Some("the start is not on it, though it began there: try another --seed")
@@ -361,6 +361,10 @@ impl Mapper for BetterExplorer {
         self.map.at().map(guess).into_iter().collect()
     }
 
+    fn visit_naming(&self) -> VisitNaming {
+        VisitNaming::EachStep
+    }
+
     fn visits(&self) -> Vec<Option<u32>> {
         let mut visits = vec![None; self.forgotten];
         visits.extend(self.corridors().visits(&self.passed));
@@ -369,12 +373,16 @@ impl Mapper for BetterExplorer {
 
     fn certainty(&self) -> Option<f64> {
         // Open ground is one place of its map, and may be more.
-        let is_doubtful = self.doubt().is_some() || self.corridors().is_open();
+        let is_doubtful = self.why_doubtful().is_some() || self.corridors().is_open();
         Some(if is_doubtful { DOUBTFUL } else { SURE })
     }
 
     fn visit_count(&self) -> usize {
         self.forgotten + self.passed.len()
+    }
+
+    fn doubt(&self) -> Option<String> {
+        self.why_doubtful().map(ToOwned::to_owned)
     }
 
     fn map_bytes(&self) -> Option<usize> {

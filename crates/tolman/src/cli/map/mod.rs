@@ -10,7 +10,6 @@ use anyhow::{Context, anyhow};
 use clap::Subcommand;
 use tolman_draw::Figure;
 use tolman_formats::input;
-use tolman_systems::origin_of;
 
 use crate::cli::ground::{Ground, required};
 use crate::cli::kind::Kind;
@@ -162,9 +161,10 @@ fn plan(app: &App<'_>, arguments: &Plan, out: &mut dyn Write) -> Result<(), Fail
 }
 
 fn check(app: &App<'_>, arguments: &Check, out: &mut dyn Write) -> Result<(), Failure> {
-    let (text, map) = read(app, &arguments.file)?;
+    let text = map_text(&arguments.file)?;
+    let system = app.system_of(&text)?;
     let (_, terrain) = arguments.ground.read()?;
-    let complaint = map.complaint(&terrain);
+    let complaint = text.complaint(system, &terrain);
     match complaint.map_err(of_registry).or_bad_input()? {
         None => Ok(writeln!(out, "{} is right", text.name)?),
         Some(complaint) => Err(Failure::Failed(anyhow!(
@@ -223,13 +223,7 @@ pub(in crate::cli) fn map_text_or<T>(
 /// Bad input with the file's name.
 pub(in crate::cli) fn of_text(path: &Path, text: String) -> Result<MapText, Failure> {
     let name = path.display().to_string();
-    let (system, origin) = origin_of(&text)
+    MapText::read(name.clone(), text.clone())
         .map_err(|error| Kind::Map.explain(&text, &name, error))
-        .or_bad_input()?;
-    Ok(MapText {
-        name,
-        system,
-        origin,
-        text,
-    })
+        .or_bad_input()
 }

@@ -1,0 +1,169 @@
+//! What the judge knows of a map beside the map: where the robot truly was. No system sees it.
+
+use alloc::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+use tolman_geom::Point;
+use tolman_maze::Cell;
+use tolman_robot::{MapPlace, MapView, VisitNaming};
+
+use super::judgement::{MapJudgement, judge, stands_for};
+use super::true_graph::{PlaceRule, TrueGraph};
+use super::whereabouts::{PlaceVisit, Squares, believed};
+use crate::Outing;
+use crate::course::Course;
+use crate::gngslam::LaidOver;
+
+/// True positions of a robot while it learns, noted after each action.
+#[derive(Clone, Debug, Default)]
+pub struct TrueVisits {
+    /// Where the robot truly was whenever it came to a place.
+    arrivals: Vec<Point>,
+    /// Places that the system believed in after each action, with the true positions.
+    beliefs: Vec<(u32, Point)>,
+}
+
+/// The judge's evidence of a learned map.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Evidence {
+    /// The cell for which each place stands: place, column, row.
+    stands_for: Vec<(u32, u16, u16)>,
+    /// Share of the visits in the cell for which the place stands; `None` without visits.
+    purity: Option<f64>,
+    /// Cells that the robot drove through, in order: columns and rows.
+    way: Vec<(u16, u16)>,
+    /// True position of the robot at its first visit to each place, m.
+    founded: Vec<(u32, [f64; 2])>,
+}
+
+impl TrueVisits {
+    /// Notes the result of an action, before which the robot was at `before`.
+    pub fn note(&mut self, outing: &dyn Outing, before: Point) {
+        let after = outing.path().last().map_or(before, |pose| pose.position);
+        match outing.visit_naming() {
+            // The path has them.
+            VisitNaming::EachStep => {}
+            VisitNaming::EachArrival => {
+                let count = outing.visit_count();
+                while self.arrivals.len() + 1 < count {
+                    self.arrivals.push(before);
+                }
+                if self.arrivals.len() < count {
+                    self.arrivals.push(after);
+                }
+            }
+            VisitNaming::Never => {
+                let place = believed(&outing.belief(), || outing.map());
+                self.beliefs.extend(place.map(|place| (place, after)));
+            }
+        }
+    }
+
+    /// Returns the evidence of the outing's map. `from` is the index of the first pose of its path
+    /// that belongs to learning. O(visits · log places).
+    #[must_use]
+    pub fn evidence(self, outing: &dyn Outing, from: usize) -> Evidence {
+        let path = outing.path().iter().map(|pose| pose.position);
+        let named = |points: Vec<Point>| {
+            let named = outing.visits().into_iter().zip(points);
+            named.filter_map(|(place, at)| Some((place?, at))).collect()
+        };
+        let visits: Vec<(u32, Point)> = match outing.visit_naming() {
+            VisitNaming::Never => self.beliefs,
+            VisitNaming::EachArrival => named(self.arrivals),
+            VisitNaming::EachStep => named(path.clone().collect()),
+        };
+        let map = outing.map();
+        let squares = Squares::of(outing.course());
+        let cells: Vec<PlaceVisit> = (visits.iter())
+            .map(|(place, at)| PlaceVisit {
+                place: *place,
+                cell: squares.cell_at(*at),
+            })
+            .collect();
+        let (stands_for, purity) = stands_for(&map, &cells, squares);
+        let mut way: Vec<Cell> = path.skip(from).map(|at| squares.cell_at(at)).collect();
+        way.dedup();
+        let mut founded: BTreeMap<u32, Point> = BTreeMap::new();
+        for (place, at) in visits {
+            founded.entry(place).or_insert(at);
+        }
+        Evidence {
+            stands_for: (stands_for.iter())
+                .map(|(place, cell)| (*place, cell.x, cell.y))
+                .collect(),
+            purity,
+            way: way.iter().map(|cell| (cell.x, cell.y)).collect(),
+            founded: (founded.into_iter())
+                .map(|(place, at)| (place, at.into()))
+                .collect(),
+        }
+    }
+}
+
+/// Limit of the places' error in a right map of a free world, root mean square, m.
+const MOST_ERROR: f64 = 0.5;
+
+/// Distance within which a place covers the floor of a free world, m.
+const NEAR: f64 = 1.5;
+
+/// Minimum share of the floor that a right map of a free world covers.
+const LEAST_COVERED: f64 = 0.9;
+
+impl Evidence {
+    /// Returns the cell for which each place of the map stands.
+    pub(super) fn cells(&self) -> BTreeMap<u32, Cell> {
+        let cells = self.stands_for.iter();
+        cells
+            .map(|(place, x, y)| (*place, Cell::new(*x, *y)))
+            .collect()
+    }
+
+    /// Returns the judgement of a map of a maze, of which this is the evidence.
+    ///
+    /// O(cells driven · ways + links · ways).
+    #[must_use]
+    pub fn judge(&self, map: &MapView, truth: &TrueGraph) -> MapJudgement {
+        let way = self.way.iter().map(|(x, y)| Cell::new(*x, *y));
+        judge(map, &self.cells(), self.purity, truth, &truth.gone(way))
+    }
+
+    /// Returns why a map is wrong or unfinished as one of the course, in a sentence without a full
+    /// stop; `None` if it is right.
+    ///
+    /// In a maze the [judgement](Self::judge) decides. A world of free walls has no graph of cells.
+    /// There the places have to lie where they truly are, as far as the map has positions, and have
+    /// to cover the floor. O(cells · places).
+    #[must_use]
+    pub fn complaint(&self, map: &MapView, course: &Course, rule: PlaceRule) -> Option<String> {
+        if !course.is_free() {
+            let truth = TrueGraph::of(&course.maze, rule);
+            return self.judge(map, &truth).complaint();
+        }
+        let founded: BTreeMap<u32, Point> = (self.founded.iter())
+            .map(|(place, at)| (*place, Point::from(*at)))
+            .collect();
+        let both = |place: &MapPlace| Some((place.position?, *founded.get(&place.id)?));
+        let (places, sites): (Vec<Point>, Vec<Point>) = map.places.iter().filter_map(both).unzip();
+        let laid = LaidOver::of_places(places.into_iter(), &sites);
+        if let Some(laid) = laid.filter(|laid| laid.error_m > MOST_ERROR) {
+            return Some(format!(
+                "its places lie {:.1} m from where they truly are: try another --seed",
+                laid.error_m
+            ));
+        }
+        let cells: Vec<Point> = course
+            .starts()
+            .map(|cell| course.cell_centre(cell))
+            .collect();
+        let is_near = |cell: &&Point| founded.values().any(|at| (at - **cell).norm() <= NEAR);
+        let covered = cells.iter().filter(is_near).count();
+        let share = covered as f64 / cells.len().max(1) as f64;
+        (share < LEAST_COVERED).then(|| {
+            format!(
+                "it has places near {:.0} % of the floor alone: learn longer",
+                100.0 * share
+            )
+        })
+    }
+}
