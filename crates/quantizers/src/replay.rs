@@ -174,7 +174,7 @@ impl<S: Scalar, Q: Quantizer<S>> ReplayQuantizer<S, Q> {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SavedReplay<S, Q> {
-    /// Name of the format.
+    /// Name of the format: `tolman-replay-quantizer`. Earlier releases wrote `tolman-replay`.
     pub format: String,
     /// Version of the format.
     pub version: u32,
@@ -190,8 +190,11 @@ pub struct SavedReplay<S, Q> {
     pub words: u64,
 }
 
-const FORMAT: &str = "tolman-replay";
+const FORMAT: &str = "tolman-replay-quantizer";
 const VERSION: u32 = 1;
+
+/// Earlier name of the format, which replays of runs have too.
+const FORMER_FORMAT: &str = "tolman-replay";
 
 impl<S: Scalar, Q: Quantizer<S>> From<ReplayQuantizer<S, Q>> for SavedReplay<S, Q> {
     fn from(replay: ReplayQuantizer<S, Q>) -> Self {
@@ -213,7 +216,11 @@ impl<S: Scalar, Q: Quantizer<S>> TryFrom<SavedReplay<S, Q>> for ReplayQuantizer<
 
     /// Resumes a saved quantizer.
     fn try_from(saved: SavedReplay<S, Q>) -> Result<Self, SnapshotError> {
-        check_header(&saved.format, saved.version, FORMAT, VERSION)?;
+        let format = match saved.format.as_str() {
+            FORMER_FORMAT => FORMAT,
+            format => format,
+        };
+        check_header(format, saved.version, FORMAT, VERSION)?;
         saved.config.check()?;
         let network = saved.quantizer.network();
         let remembered = saved.seen.min(saved.config.capacity.into()) as usize;

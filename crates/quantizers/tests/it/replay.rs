@@ -201,6 +201,15 @@ fn a_resumed_memory_goes_on_as_if_nothing_were() {
     assert_eq!(went_on.words, resumed.words);
     assert_eq!(went_on.quantizer.snapshot(), resumed.quantizer.snapshot());
 
+    let mut former = went_on.clone();
+    assert_eq!(former.format, "tolman-replay-quantizer");
+    former.format = "tolman-replay".to_owned();
+    assert!(ReplayQuantizer::try_from(former.clone()).is_ok());
+    former.version = 2;
+    assert!(ReplayQuantizer::try_from(former.clone()).is_err());
+    (former.format, former.version) = ("tolman-gng".to_owned(), 1);
+    assert!(ReplayQuantizer::try_from(former).is_err());
+
     let mut spoilt = went_on.clone();
     spoilt.memory[5] = f64::NAN;
     assert!(ReplayQuantizer::try_from(spoilt).is_err());
