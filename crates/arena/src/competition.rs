@@ -14,7 +14,7 @@
 //! o---o---o---o
 //! ";
 //! let maze = tolman_maze::read(text)?.maze;
-//! let exploration = competition::explore(&maze, &SpeedRunConfig::classic())?;
+//! let exploration = competition::explore(&maze, &SpeedRunConfig::classic(), |_, _| {})?;
 //! assert_eq!(exploration.cells, 12, "six there and six back");
 //! assert_eq!(exploration.verdict, Ok(()));
 //! # Ok::<(), Box<dyn core::error::Error>>(())
@@ -22,28 +22,23 @@
 
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_planners::speed_run::{SpeedRunConfig, SpeedRunTimes};
+use tolman_robot::Standing;
 use tolman_systems::micromouse::Brief;
 use tolman_systems::micromouse::competition::{
     CompetitionMouse, CompetitionNext, ExploreError, SpeedRunExploration,
 };
 
+use crate::run::within;
+
 /// Lets a mouse explore a maze and returns the result. The mouse looks at the walls of its cell and
 /// remembers all. It begins at the maze's start, or in the south-western corner, looking north.
-/// O(cells driven · n) for n cells.
+/// Calls `see` with every cell that the mouse looks at, and which of its sides are open, in the
+/// order of [`Direction::ALL`]. O(cells driven · n) for n cells.
 ///
 /// # Errors
 /// If the maze has no way to a goal, or is larger than 32 × 32, or the times of the moves are too
 /// far apart.
-pub fn explore(maze: &Maze, config: &SpeedRunConfig) -> Result<SpeedRunExploration, ExploreError> {
-    watch(maze, config, |_, _| {})
-}
-
-/// Explores like [`explore`] and returns the same. Calls `see` with every cell that the mouse looks
-/// at, and which of its sides are open, in the order of [`Direction::ALL`].
-///
-/// # Errors
-/// As [`explore`].
-pub fn watch(
+pub fn explore(
     maze: &Maze,
     config: &SpeedRunConfig,
     see: impl FnMut(Cell, [bool; 4]),
@@ -51,13 +46,13 @@ pub fn watch(
     let grid = maze.grid();
     // What is known takes its time to be looked through.
     if grid.width().max(grid.height()) <= 16 {
-        watch_within::<16>(maze, config, see)
+        explore_within::<16>(maze, config, see)
     } else {
-        watch_within::<32>(maze, config, see)
+        explore_within::<32>(maze, config, see)
     }
 }
 
-fn watch_within<const N: usize>(
+fn explore_within<const N: usize>(
     maze: &Maze,
     config: &SpeedRunConfig,
     mut see: impl FnMut(Cell, [bool; 4]),
@@ -71,17 +66,24 @@ fn watch_within<const N: usize>(
     };
     let times = SpeedRunTimes::<N>::new(config)?;
     let mut mouse = CompetitionMouse::new(&brief, config, &times)?;
-    let mut at = start;
-    loop {
+    // It drives to each unseen cell, and home, on a way of at most all cells.
+    let cells = maze.grid().cells().count() as u32;
+    let (mut at, mut found) = (start, None);
+    within(cells * (cells + 1), || {
         let open = Direction::ALL.map(|side| maze.is_open(at, side));
         see(at, open);
         match mouse.next(open)? {
             CompetitionNext::Drive(side) => {
                 at = maze.beside(at, side).ok_or(ExploreError::NoWay { at })?;
+                Ok::<_, ExploreError>(Standing::UnderWay)
             }
-            CompetitionNext::Finished(exploration) => return Ok(exploration),
+            CompetitionNext::Finished(exploration) => {
+                found = Some(exploration);
+                Ok(Standing::Done)
+            }
         }
-    }
+    })?;
+    found.ok_or(ExploreError::NoWay { at })
 }
 
 #[cfg(test)]
@@ -96,7 +98,7 @@ mod tests {
         let mut maze = Maze::open(Grid::new(33, 4));
         maze.set_goals(vec![Cell::new(3, 3)]);
         assert!(matches!(
-            explore(&maze, &config),
+            explore(&maze, &config, |_, _| {}),
             Err(ExploreError::TooLarge(_))
         ));
         let mut maze = Maze::open(Grid::new(4, 1));
@@ -104,7 +106,10 @@ mod tests {
         maze.set_goals(vec![Cell::new(3, 0)]);
         maze.set_wall(Cell::new(2, 0), Direction::East, true);
         let at = Cell::new(2, 0);
-        assert_eq!(explore(&maze, &config), Err(ExploreError::NoWay { at }));
+        assert_eq!(
+            explore(&maze, &config, |_, _| {}),
+            Err(ExploreError::NoWay { at })
+        );
     }
 
     #[test]
@@ -121,7 +126,7 @@ mod tests {
             (Direction::East, 0, Direction::East),
         ] {
             maze.set_start(Some((Cell::new(at, 0), facing)));
-            let explored = explore(&maze, &SpeedRunConfig::classic()).unwrap();
+            let explored = explore(&maze, &SpeedRunConfig::classic(), |_, _| {}).unwrap();
             assert_eq!(explored.verdict, Ok(()));
             assert_eq!(explored.certificate.heading, way);
             assert_eq!((explored.cells, explored.search_cells), (6, 3));

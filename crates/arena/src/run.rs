@@ -211,6 +211,36 @@ pub fn until_done<D: InRun + ?Sized, E>(
     })
 }
 
+/// Number of actions in a run whose steps are actions.
+struct Actions {
+    made: u32,
+    most: u32,
+}
+
+impl InRun for Actions {
+    fn steps(&self) -> u32 {
+        self.made
+    }
+
+    fn is_out_of_time(&self) -> bool {
+        self.made >= self.most
+    }
+}
+
+/// Calls `act` repeatedly until the task is done or given up, or `most` actions are made. Returns
+/// how it ended. This is [`until_done`] for runs that are limited by their actions in place of time
+/// steps, such as a mouse's orders or a robot's looks.
+///
+/// # Errors
+/// The error of `act`.
+pub fn within<E>(most: u32, mut act: impl FnMut() -> Result<Standing, E>) -> Result<Ended, E> {
+    until_done(&mut Actions { made: 0, most }, |actions| {
+        let standing = act()?;
+        actions.made += 1;
+        Ok(standing)
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use core::convert::Infallible;
@@ -290,6 +320,26 @@ mod tests {
         assert!(robot.step(&1.0).is_ok() && robot.step(&1.0).is_ok());
         assert!(robot.is_out_of_time() && robot.step(&1.0).is_err());
         assert_eq!(robot.steps(), 2);
+    }
+
+    #[test]
+    fn a_run_may_be_limited_by_its_actions() {
+        let mut made = 0;
+        let mut act = |most, last: Result<Standing, &'static str>| {
+            made = 0;
+            within(most, || {
+                made += 1;
+                if made == 3 {
+                    return last.clone();
+                }
+                Ok(Standing::UnderWay)
+            })
+        };
+        let ended = act(2, Ok(Standing::Done)).unwrap();
+        assert_eq!((ended.end, ended.actions), (TaskEnd::OutOfTime, 2));
+        let ended = act(3, Ok(Standing::Done)).unwrap();
+        assert_eq!((ended.end, ended.actions), (TaskEnd::Done, 3));
+        assert_eq!(act(3, Err("it failed")), Err("it failed"));
     }
 
     #[test]

@@ -59,5 +59,5 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn explore(path: &Path, config: &SpeedRunConfig) -> Result<SpeedRunExploration, String> {
     let text = fs::read_to_string(path).map_err(|error| error.to_string())?;
     let file = tolman_maze::read(&text).map_err(|error| error.to_string())?;
-    competition::explore(&file.maze, config).map_err(|error| error.to_string())
+    competition::explore(&file.maze, config, |_, _| {}).map_err(|error| error.to_string())
 }

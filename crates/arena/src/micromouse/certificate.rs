@@ -234,7 +234,7 @@ o---o---o---o---o---o
 
     fn certificate(maze: &Maze) -> Certificate {
         let mut mouse = Searcher::Certify.mouse(&brief(maze).unwrap(), 0).unwrap();
-        MouseTrial::play(maze, &mut mouse).unwrap();
+        MouseTrial::play(maze, &mut mouse, |_, _| {}).unwrap();
         mouse.certificate().unwrap().clone()
     }
 

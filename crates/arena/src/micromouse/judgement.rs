@@ -70,6 +70,7 @@ pub fn floor(optimum: u32) -> f64 {
 }
 
 /// Sends a mouse with a search through `maze` and judges it. `seed` seeds what the search draws.
+/// Calls `see` with every step as soon as it is made.
 ///
 /// # Errors
 /// If no mouse can run in the maze.
@@ -77,23 +78,10 @@ pub fn try_on(
     maze: &Maze,
     searcher: Searcher,
     seed: u64,
-) -> Result<(MouseTrial, Judgement), MouseTrialError> {
-    watch(maze, searcher, seed, |_| {})
-}
-
-/// Sends and judges a mouse like [`try_on`]. Calls `see` with every step as soon as
-/// it is made.
-///
-/// # Errors
-/// If no mouse can run in the maze.
-pub fn watch(
-    maze: &Maze,
-    searcher: Searcher,
-    seed: u64,
-    see: impl FnMut(&RefereedStep),
+    mut see: impl FnMut(&RefereedStep),
 ) -> Result<(MouseTrial, Judgement), MouseTrialError> {
     let mut mouse = searcher.mouse(&brief(maze)?, seed)?;
-    let trial = MouseTrial::watch(maze, &mut mouse, see)?;
+    let trial = MouseTrial::play(maze, &mut mouse, |step, _| see(step))?;
     let judgement = Judgement::of(maze, &mouse, &trial).map_err(MouseError::from)?;
     Ok((trial, judgement))
 }

@@ -24,7 +24,7 @@
 //! ";
 //! let maze = tolman_maze::read(text)?.maze;
 //! let mut mouse = Searcher::Certify.mouse(&brief(&maze)?, 0)?;
-//! let trial = MouseTrial::play(&maze, &mut mouse)?;
+//! let trial = MouseTrial::play(&maze, &mut mouse, |_, _| {})?;
 //! assert_eq!(trial.verdict.run_2, Some(4));
 //! let certificate = mouse.certificate().ok_or("no proof")?;
 //! check(certificate, &maze)?;
@@ -41,7 +41,7 @@ mod referee;
 mod trial;
 
 pub use certificate::{CertificateError, check};
-pub use judgement::{Judgement, floor, try_on, watch};
+pub use judgement::{Judgement, floor, try_on};
 pub use q_learning::CellTask;
 pub use referee::{MAX_STEPS, Referee, RefereeError, Ruling, ScoreSheet, brief};
 pub use trial::{MouseTrial, MouseTrialError, RefereedStep, SideSeen, sides_seen};

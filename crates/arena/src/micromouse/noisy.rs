@@ -7,15 +7,18 @@
 use thiserror::Error;
 use tolman_maps::wall_belief::{PoseFilterConfig, RangeModel};
 use tolman_maze::Maze;
-use tolman_robot::Ring;
+use tolman_robot::{Ring, Standing};
 use tolman_sim::noise::{Fault, Gaussian};
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig, RobotConfigError};
-use tolman_sim::{CorridorSize, PlaceError, Solo, StepError, World, WorldError};
+use tolman_sim::{CorridorSize, PlaceError, StepError, World, WorldError};
 use tolman_systems::micromouse::noisy::{
-    NoisyMouse, NoisyMouseConfig, NoisyMouseError, NoisyNext, PoseSource,
+    NoisyMouse, NoisyMouseConfig, NoisyMouseError, PoseSource,
 };
 
-use super::{MAX_STEPS, RefereeError, brief};
+use super::{MAX_STEPS, RefereeError, ScoreSheet, brief};
+use crate::Simulated;
+use crate::course::Course;
+use crate::run::{TaskEnd, within};
 
 /// Errors of a mouse's wheels and sensors, and the source of its pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -133,32 +136,12 @@ impl NoisyConfig {
 /// Result of a noisy mouse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NoisyTrial {
-    /// Outcome of the runs.
-    pub end: NoisyEnd,
-    /// Number of steps of the paper's rules.
-    pub steps: u32,
+    /// Number of steps of each run at whose end the mouse was at the goal.
+    pub verdict: ScoreSheet,
     /// Number of time steps in which the mouse touched a wall.
     pub bumps: u32,
     /// Mean distance between true and believed position at the mouse's stops, m.
     pub mean_error: f64,
-}
-
-/// End of a noisy mouse's runs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NoisyEnd {
-    /// The mouse was at the goal in both runs.
-    Arrived {
-        /// Number of steps of the first run, the reset included.
-        run_1: u32,
-        /// Number of steps of the second run.
-        run_2: u32,
-    },
-    /// The mouse said that it was at the goal and was not.
-    Mistaken,
-    /// The mouse believes that no way leads to the goal.
-    Stuck,
-    /// The mouse has made all its steps.
-    OutOfSteps,
 }
 
 /// Reason why a mouse cannot be sent out.
@@ -191,82 +174,67 @@ pub enum NoisyError {
 /// # Errors
 /// If the maze or the mouse is invalid.
 pub fn send(maze: &Maze, config: &NoisyConfig, seed: u64) -> Result<NoisyTrial, NoisyError> {
-    let mut outing = Outing::new(maze, config, seed)?;
-    let end = outing.both_runs()?;
+    let robot = config.robot();
+    let mouse = NoisyMouse::new(brief(maze)?, config.mouse(&robot), seed)?;
+    let corridors = config.size.corridors();
+    let world = World::from_maze(maze, &corridors)?;
+    let course = Course::in_world("", maze.clone(), corridors.corridor_width, world);
+    let mut trial = Refereed {
+        body: course.robot_at(mouse.start(), LaserPioneer::new(robot)?, seed)?,
+        course,
+        mouse,
+        stops: 0,
+        errors: 0.0,
+        was_at_goal: false,
+    };
     Ok(NoisyTrial {
-        end,
-        steps: outing.steps,
-        bumps: outing.body.bumps(),
-        mean_error: outing.errors / f64::from(outing.stops.max(1)),
+        verdict: trial.both_runs()?,
+        bumps: trial.body.bumps(),
+        mean_error: trial.errors / f64::from(trial.stops.max(1)),
     })
 }
 
-struct Outing<'a> {
-    maze: &'a Maze,
-    body: Solo<LaserPioneer>,
+/// A mouse under the paper's rules, and what the referee notes of it.
+struct Refereed {
+    course: Course,
+    body: Simulated<LaserPioneer>,
     mouse: NoisyMouse,
-    steps: u32,
     stops: u32,
     errors: f64,
     was_at_goal: bool,
 }
 
-impl<'a> Outing<'a> {
-    fn new(maze: &'a Maze, config: &NoisyConfig, seed: u64) -> Result<Self, NoisyError> {
-        let robot = config.robot();
-        let mouse = NoisyMouse::new(brief(maze)?, config.mouse(&robot), seed)?;
-        let world = World::from_maze(maze, &config.size.corridors())?;
-        let body = Solo::new(world, LaserPioneer::new(robot)?, mouse.start(), seed)?;
-        Ok(Self {
-            maze,
-            body,
-            mouse,
-            steps: 0,
-            stops: 0,
-            errors: 0.0,
-            was_at_goal: false,
-        })
-    }
-
-    fn both_runs(&mut self) -> Result<NoisyEnd, NoisyError> {
-        if let Some(end) = self.until_done(NoisyMouse::explore)? {
-            return Ok(end);
-        }
-        if !self.was_at_goal {
-            return Ok(NoisyEnd::Mistaken);
-        }
-        self.steps += 1;
-        let run_1 = self.steps;
+impl Refereed {
+    fn both_runs(&mut self) -> Result<ScoreSheet, NoisyError> {
+        let mut sheet = ScoreSheet::default();
+        let run_1 = self.steps_of(MAX_STEPS, NoisyMouse::explore)?;
+        let Some(run_1) = run_1.filter(|_| self.was_at_goal) else {
+            return Ok(sheet);
+        };
+        sheet.run_1 = Some(run_1 + 1);
         self.body.place(self.mouse.start())?;
         self.mouse.put_back();
-        if let Some(end) = self.until_done(NoisyMouse::run)? {
-            return Ok(end);
-        }
-        if !self.is_at_goal() {
-            return Ok(NoisyEnd::Mistaken);
-        }
-        let run_2 = self.steps - run_1;
-        Ok(NoisyEnd::Arrived { run_1, run_2 })
+        let run_2 = self.steps_of(MAX_STEPS - run_1 - 1, NoisyMouse::run)?;
+        sheet.run_2 = run_2.filter(|_| self.is_at_goal());
+        Ok(sheet)
     }
 
-    /// Lets the mouse act until it believes that it is done, and returns how the trial ended.
-    fn until_done(
+    /// Lets the mouse make at most `most` steps, and returns how many it made until it believed
+    /// that it was done; `None` if it never did.
+    fn steps_of(
         &mut self,
-        act: fn(&mut NoisyMouse, &mut Solo<LaserPioneer>) -> Result<NoisyNext, StepError>,
-    ) -> Result<Option<NoisyEnd>, NoisyError> {
-        while self.steps < MAX_STEPS {
+        most: u32,
+        act: fn(&mut NoisyMouse, &mut Simulated<LaserPioneer>) -> Result<Standing, StepError>,
+    ) -> Result<Option<u32>, StepError> {
+        let ended = within(most, || {
             self.stop()?;
-            match act(&mut self.mouse, &mut self.body)? {
-                NoisyNext::Stepped => self.steps += 1,
-                NoisyNext::Done => return Ok(None),
-                NoisyNext::Stuck => return Ok(Some(NoisyEnd::Stuck)),
-            }
-        }
-        Ok(Some(NoisyEnd::OutOfSteps))
+            act(&mut self.mouse, &mut self.body)
+        })?;
+        Ok((ended.end == TaskEnd::Done).then_some(ended.actions - 1))
     }
 
     /// Lets the mouse look, and records the distance of its believed position from the true one.
-    fn stop(&mut self) -> Result<(), NoisyError> {
+    fn stop(&mut self) -> Result<(), StepError> {
         self.mouse.look(&mut self.body)?;
         let off = self.mouse.pose().position - self.body.truth().pose.position;
         self.errors += off.norm();
@@ -277,9 +245,7 @@ impl<'a> Outing<'a> {
 
     /// Returns whether the mouse really is in a goal.
     fn is_at_goal(&self) -> bool {
-        let position = self.body.truth().pose.position;
-        let cell = self.mouse.belief().cell_at(position);
-        cell.is_some_and(|cell| self.maze.goals().contains(&cell))
+        self.course.is_destination(self.body.truth().pose.position)
     }
 }
 
@@ -307,9 +273,9 @@ mod tests {
         let quiet = outcome(PoseSource::DeadReckoning, 0.0);
         let filtered = outcome(PoseSource::ParticleFilter, 2.0);
         let reckoned = outcome(PoseSource::DeadReckoning, 2.0);
-        assert!(matches!(quiet.end, NoisyEnd::Arrived { .. }));
-        assert_eq!(filtered.end, quiet.end, "the noise costs no step");
-        assert!(!matches!(reckoned.end, NoisyEnd::Arrived { .. }));
+        assert!(quiet.verdict.score().is_some());
+        assert_eq!(filtered.verdict, quiet.verdict, "the noise costs no step");
+        assert_eq!(reckoned.verdict.score(), None);
         assert!(filtered.mean_error < 0.01 && reckoned.mean_error > 0.02);
     }
 }

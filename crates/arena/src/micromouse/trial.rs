@@ -1,9 +1,11 @@
 //! Plays both runs of one mouse in one maze.
 
 use tolman_maze::{Cell, Direction, Maze};
+use tolman_robot::Standing;
 use tolman_systems::micromouse::{Driver, MouseError, Order, OrderError, Search, Sight};
 
-use super::{Referee, RefereeError, Ruling, ScoreSheet};
+use super::{MAX_STEPS, Referee, RefereeError, Ruling, ScoreSheet};
+use crate::run::{TaskEnd, within};
 
 /// Result of one mouse in one maze.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,8 +14,8 @@ pub struct MouseTrial {
     pub steps: Vec<RefereedStep>,
     /// Records of the referee.
     pub verdict: ScoreSheet,
-    /// Reason why the mouse gave up, if it did.
-    pub gave_up: Option<MouseError>,
+    /// End of both runs.
+    pub end: TaskEnd,
 }
 
 /// One step of a trial, as the referee saw it.
@@ -81,52 +83,44 @@ pub enum MouseTrialError {
 }
 
 impl MouseTrial {
-    /// Lets the mouse run until it is done, gives up or has no step left.
+    /// Lets the mouse run until it is done, gives up or has no step left. Calls `see` with every
+    /// step as soon as it is made, and with the mouse after it.
     ///
     /// # Errors
     /// If the referee refuses the maze or an order.
-    pub fn play(maze: &Maze, mouse: &mut Driver<impl Search>) -> Result<Self, MouseTrialError> {
-        Self::watch(maze, mouse, |_| {})
-    }
-
-    /// Plays like [`play`](Self::play), and calls `see` with every step as soon as it is made.
-    ///
-    /// # Errors
-    /// If the referee refuses the maze or an order.
-    pub fn watch(
+    pub fn play<S: Search>(
         maze: &Maze,
-        mouse: &mut Driver<impl Search>,
-        mut see: impl FnMut(&RefereedStep),
+        mouse: &mut Driver<S>,
+        mut see: impl FnMut(&RefereedStep, &Driver<S>),
     ) -> Result<Self, MouseTrialError> {
         let mut referee = Referee::new(maze)?;
         let mut steps = Vec::new();
-        let mut gave_up = None;
-        while !referee.is_over() {
+        let ended = within(MAX_STEPS, || {
             let sight = referee.sight();
-            match mouse.next(sight) {
-                Ok(order) => {
-                    let event = referee.take(order)?;
-                    let (cell, heading) = referee.pose();
-                    let step = RefereedStep {
-                        sight,
-                        order,
-                        event,
-                        cell,
-                        heading,
-                    };
-                    see(&step);
-                    steps.push(step);
-                }
-                Err(error) => {
-                    gave_up = Some(error);
-                    break;
-                }
-            }
-        }
+            let order = match mouse.next(sight) {
+                Ok(order) => order,
+                Err(error) => return Ok(Standing::gave_up(error.to_string())),
+            };
+            let event = referee.take(order)?;
+            let (cell, heading) = referee.pose();
+            let step = RefereedStep {
+                sight,
+                order,
+                event,
+                cell,
+                heading,
+            };
+            see(&step, mouse);
+            steps.push(step);
+            Ok::<_, MouseTrialError>(match event {
+                Ruling::Finished => Standing::Done,
+                _ => Standing::UnderWay,
+            })
+        })?;
         Ok(Self {
             steps,
             verdict: referee.verdict(),
-            gave_up,
+            end: ended.end,
         })
     }
 }

@@ -9,7 +9,7 @@ use tolman_planners::moves::{MoveExplorerConfig, MoveMap, RolloutConfig};
 use tolman_planners::{Passages, TooLarge, Unknown};
 
 use super::Micromouse;
-use tolman_arena::micromouse::{Referee, Ruling, brief};
+use tolman_arena::micromouse::{MouseTrial, Ruling, brief};
 use tolman_draw::{Drawing, Figure, FloorPlan, Series, Shade};
 use tolman_experiment::{BoxError, Run};
 use tolman_systems::micromouse::{
@@ -59,14 +59,14 @@ fn known_after<S: Search>(
     mouse: &mut Driver<S>,
     steps: u32,
 ) -> Result<WallMap<SIDE>, BoxError> {
-    let mut referee = Referee::new(maze)?;
-    while referee.steps() < steps && !referee.is_over() {
-        let order = mouse.next(referee.sight())?;
-        if referee.take(order)? == Ruling::RunTwo {
-            break;
+    let (mut known, mut made) = (None, 0);
+    MouseTrial::play(maze, mouse, |step, mouse| {
+        made += 1;
+        if made == steps || step.event == Ruling::RunTwo {
+            known.get_or_insert(*mouse.map());
         }
-    }
-    Ok(*mouse.map())
+    })?;
+    Ok(known.unwrap_or(*mouse.map()))
 }
 
 fn uncertainty(map: &WallMap<SIDE>, steps: u32) -> Figure {
@@ -105,32 +105,34 @@ fn open_and_closed(maze: &Maze) -> Result<Option<Figure>, BoxError> {
     let (explorer, rollouts) = (MoveExplorerConfig::tuned(), RolloutConfig::tuned());
     let search = Certify::new(explorer, Some(rollouts), maze.grid(), start)?;
     let mut mouse = Driver::new(brief(maze)?, search, RunTwo::FewestMoves)?;
-    let mut referee = Referee::new(maze)?;
-    while !referee.is_over() {
-        let order = mouse.next(referee.sight())?;
-        if referee.take(order)? == Ruling::RunTwo {
-            break;
+    let (mut steps, mut explores, mut found) = (0, true, None);
+    MouseTrial::play(maze, &mut mouse, |step, mouse| {
+        steps += 1;
+        explores &= step.event != Ruling::RunTwo;
+        let best = |unknown| run(mouse.map(), unknown, maze, start);
+        if explores
+            && found.is_none()
+            && let (Ok(open), Ok(closed)) = (best(Unknown::Open), best(Unknown::Closed))
+            && closed.len() > 1
+            && open.len() < closed.len()
+        {
+            found = Some((steps, walls(mouse.map()), open, closed));
         }
-        let map = mouse.map();
-        let open = run(map, Unknown::Open, maze, start)?;
-        let closed = run(map, Unknown::Closed, maze, start)?;
-        if closed.len() > 1 && open.len() < closed.len() {
-            let mut plan = FloorPlan::of_walls(&walls(map), WIDTH);
-            plan.trajectory(&open, Series(1));
-            plan.trajectory(&closed, Series(0));
-            let drawing = plan.drawing("The walls known so far with two runs from start to goal.");
-            let caption = format!(
-                "After {} steps of our search: the best run that is certain takes {} steps (first colour), the best \
-                 that can be hoped for {} (second colour). It is over when both take as many.",
-                referee.steps(),
-                closed.len() - 1,
-                open.len() - 1
-            );
-            let figure = Figure::new("open-and-closed", "Open path and closed path", drawing);
-            return Ok(Some(figure.caption(caption).table(TABLE)));
-        }
-    }
-    Ok(None)
+    })?;
+    Ok(found.map(|(steps, walls, open, closed)| {
+        let mut plan = FloorPlan::of_walls(&walls, WIDTH);
+        plan.trajectory(&open, Series(1));
+        plan.trajectory(&closed, Series(0));
+        let drawing = plan.drawing("The walls known so far with two runs from start to goal.");
+        let caption = format!(
+            "After {steps} steps of our search: the best run that is certain takes {} steps (first colour), the best \
+             that can be hoped for {} (second colour). It is over when both take as many.",
+            closed.len() - 1,
+            open.len() - 1
+        );
+        let figure = Figure::new("open-and-closed", "Open path and closed path", drawing);
+        figure.caption(caption).table(TABLE)
+    }))
 }
 
 /// Returns the stops of the best run; `None` if there is no run.

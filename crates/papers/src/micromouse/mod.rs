@@ -249,7 +249,7 @@ impl Micromouse {
     /// Plays a run in a maze of a set.
     fn run_on_set(&self, job: &Job<'_>, searcher: Searcher) -> Result<Fields, BoxError> {
         let (maze, walls) = self.set(job.row)?.maze(job.run)?;
-        let judgement = try_on(walls, searcher, job.seed)?.1;
+        let judgement = try_on(walls, searcher, job.seed, |_| {})?.1;
         Ok(SetRun::of(&judgement, maze).fields()?)
     }
 
@@ -258,7 +258,7 @@ impl Micromouse {
         let table = self.paper.iter().find(|table| table.name == job.table);
         let row = table.and_then(|table| table.row(job.row));
         let (searcher, maze) = row.ok_or("there is no such run")?;
-        Ok(PaperRun::of(&try_on(maze, searcher, job.seed)?.1).fields()?)
+        Ok(PaperRun::of(&try_on(maze, searcher, job.seed, |_| {})?.1).fields()?)
     }
 }
 

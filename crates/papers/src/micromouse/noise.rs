@@ -4,7 +4,8 @@
 use tolman_maze::{Braided, Maze};
 
 use super::check_score;
-use tolman_arena::micromouse::noisy::{self, MouseSize, NoisyConfig, NoisyEnd};
+use tolman_arena::micromouse::ScoreSheet;
+use tolman_arena::micromouse::noisy::{self, MouseSize, NoisyConfig};
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
 use tolman_experiment::{BoxError, Fields, Job, Options, Record, Row, Run, Table, record, require};
 use tolman_systems::micromouse::noisy::PoseSource;
@@ -145,15 +146,12 @@ pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
         .find(|mouse| mouse.row == job.row)
         .ok_or("there is no such row")?;
     let trial = noisy::send(&maze(job.seed, mouse.side)?, &mouse.config, job.seed)?;
-    let runs = match trial.end {
-        NoisyEnd::Arrived { run_1, run_2 } => Some((run_1, run_2)),
-        _ => None,
-    };
+    let ScoreSheet { run_1, run_2 } = trial.verdict;
     let run = NoiseRun {
-        arrived: runs.is_some(),
-        run_1: runs.map(|runs| runs.0),
-        run_2: runs.map(|runs| runs.1),
-        score: runs.map(|(run_1, run_2)| f64::from(run_1) / 30.0 + f64::from(run_2)),
+        arrived: run_2.is_some(),
+        run_1: run_1.filter(|_| run_2.is_some()),
+        run_2,
+        score: trial.verdict.score(),
         bumps: trial.bumps,
         error_mm: 1000.0 * trial.mean_error,
     };

@@ -63,6 +63,6 @@ fn judged(maze: &Maze, until: Until, seed: u64) -> Result<Judgement, BoxError> {
         _ => Certify::new(explorer, Some(rollouts), grid, start)?,
     };
     let mut mouse = Driver::new(brief, search, RunTwo::FewestMoves)?;
-    let trial = MouseTrial::play(maze, &mut mouse)?;
+    let trial = MouseTrial::play(maze, &mut mouse, |_, _| {})?;
     Ok(Judgement::of(maze, &mouse, &trial).map_err(MouseError::from)?)
 }

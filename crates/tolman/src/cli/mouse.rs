@@ -169,7 +169,7 @@ impl Arguments {
             line["maze"] = json!(name);
             line["search"] = json!(search.name());
             line["above_floor"] = json!(judgement.above_floor());
-            line["gave_up"] = json!(tried.trial.gave_up.map(|error| error.to_string()));
+            line["gave_up"] = json!(tried.why());
             return Ok(writeln!(out, "{line}")?);
         }
         Ok(writeln!(out, "{name}: {}", tried.outcome())?)
@@ -187,7 +187,7 @@ impl Arguments {
             false => None,
         };
         let mut at = maze.start();
-        let tried = micromouse::watch(maze, search, self.seed, |step| {
+        let tried = micromouse::try_on(maze, search, self.seed, |step| {
             let Some(way) = &mut way else {
                 return;
             };
@@ -220,6 +220,11 @@ impl Arguments {
 }
 
 impl Tried<'_> {
+    /// Returns the reason for which the mouse gave up; `None` if it did not.
+    fn why(&self) -> Option<&str> {
+        Some(self.trial.end.why()).filter(|why| !why.is_empty())
+    }
+
     /// Returns the outcome in words.
     fn outcome(&self) -> String {
         let judgement = &self.judgement;
@@ -229,8 +234,8 @@ impl Tried<'_> {
                 score - judgement.floor,
                 if judgement.certified { ", proven" } else { "" }
             ),
-            _ => match self.trial.gave_up {
-                Some(error) => error.to_string(),
+            _ => match self.why() {
+                Some(why) => why.to_owned(),
                 None => format!("not done after {} steps", self.trial.steps.len()),
             },
         }

@@ -134,7 +134,7 @@ fn send<'a>(
         true => Some(shown::Shown::new(file, maze, &config, looks)?),
         false => None,
     };
-    let explored = competition::watch(maze, &config, |cell, open| {
+    let explored = competition::explore(maze, &config, |cell, open| {
         if let Some(way) = &mut way {
             way.arrive(cell, open);
         }

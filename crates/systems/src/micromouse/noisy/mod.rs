@@ -12,4 +12,4 @@ mod mouse;
 mod system;
 
 pub use config::{MotionSource, NoisyMouseConfig, NoisyMouseError, PoseSource};
-pub use mouse::{NoisyBody, NoisyMouse, NoisyNext};
+pub use mouse::{NoisyBody, NoisyMouse};

@@ -8,7 +8,7 @@ use tolman_planners::moves::{
     Leap, MouseStep, MoveDecision, MoveExplorer, MoveExplorerConfig, MoveMap,
 };
 use tolman_planners::{Passages, Unknown};
-use tolman_robot::{Bumps, Ranges, Robot, Rolls, TurnTranslate};
+use tolman_robot::{Bumps, Ranges, Robot, Rolls, Standing, TurnTranslate};
 
 use super::{MotionSource, NoisyMouseConfig, NoisyMouseError, PoseSource};
 use crate::micromouse::{Brief, SIDE};
@@ -17,17 +17,6 @@ use crate::micromouse::{Brief, SIDE};
 pub trait NoisyBody: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps + Rolls> {}
 
 impl<R: Robot<Command = TurnTranslate, Sensing: Ranges + Bumps + Rolls>> NoisyBody for R {}
-
-/// Result of a noisy mouse's step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NoisyNext {
-    /// The mouse made one step of the paper's rules.
-    Stepped,
-    /// The mouse did nothing, because it believes that it is done.
-    Done,
-    /// The mouse did nothing, because it believes that no way leads to the goal.
-    Stuck,
-}
 
 /// A mouse that drives by its beliefs about walls and pose.
 #[derive(Debug)]
@@ -63,6 +52,8 @@ const CLOSE: (f64, f64) = (0.03, 0.004 / 0.18);
 const PACE: f64 = 0.25;
 /// Number of time steps after which a step of the paper's rules is given up.
 const PATIENCE: u32 = 800;
+/// Reason for which the mouse gives up.
+const NO_WAY: &str = "it believes that no way leads to the goal";
 
 impl NoisyMouse {
     /// Returns a mouse at the start without observations; `seed` seeds its filter.
@@ -145,16 +136,16 @@ impl NoisyMouse {
     ///
     /// # Errors
     /// If the robot fails.
-    pub fn explore<R: NoisyBody>(&mut self, robot: &mut R) -> Result<NoisyNext, R::Error> {
+    pub fn explore<R: NoisyBody>(&mut self, robot: &mut R) -> Result<Standing, R::Error> {
         match self.unless_stuck(MoveDecision::Stuck, Self::decide) {
             MoveDecision::Drive(leap) => self.leap(robot, leap)?,
             MoveDecision::Turn => self.turn_to(robot, self.looks_to().right())?,
             MoveDecision::Finished { .. } | MoveDecision::Enough { .. } => {
-                return Ok(NoisyNext::Done);
+                return Ok(Standing::Done);
             }
-            MoveDecision::Stuck => return Ok(NoisyNext::Stuck),
+            MoveDecision::Stuck => return Ok(Standing::gave_up(NO_WAY)),
         }
-        Ok(NoisyNext::Stepped)
+        Ok(Standing::UnderWay)
     }
 
     /// Makes a step of the second run, which is planned again at every stop. It is done when the
@@ -162,15 +153,15 @@ impl NoisyMouse {
     ///
     /// # Errors
     /// If the robot fails.
-    pub fn run<R: NoisyBody>(&mut self, robot: &mut R) -> Result<NoisyNext, R::Error> {
+    pub fn run<R: NoisyBody>(&mut self, robot: &mut R) -> Result<Standing, R::Error> {
         if self.brief.goals.contains(&self.cell()) {
-            return Ok(NoisyNext::Done);
+            return Ok(Standing::Done);
         }
         let Some(leap) = self.unless_stuck(None, |mouse| mouse.leap_to(&mouse.brief.goals)) else {
-            return Ok(NoisyNext::Stuck);
+            return Ok(Standing::gave_up(NO_WAY));
         };
         self.leap(robot, leap)?;
-        Ok(NoisyNext::Stepped)
+        Ok(Standing::UnderWay)
     }
 
     fn decide(&mut self) -> MoveDecision {

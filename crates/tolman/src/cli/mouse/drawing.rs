@@ -49,7 +49,7 @@ o   o   o---o
 o---o---o---o
 ";
         let maze = tolman_maze::read(text).unwrap().maze;
-        let (trial, judgement) = try_on(&maze, Searcher::Certify, 0).unwrap();
+        let (trial, judgement) = try_on(&maze, Searcher::Certify, 0, |_| {}).unwrap();
         assert_eq!(judgement.run_2, Some(2));
         let expect = "\
 o---o---o---o
