@@ -48,8 +48,11 @@ impl Robot for Watched<'_> {
         self.solo.step(command)?;
         self.steps += 1;
         let position = self.solo.truth().pose.position;
-        assert!(self.pitch.holds(position), "it left the floor: {position}");
-        self.visited.insert(self.pitch.cell_of(position));
+        assert!(
+            self.pitch.course.leads_on(position),
+            "it left the floor: {position}"
+        );
+        self.visited.insert(self.pitch.cells.cell_of(position));
         Ok(())
     }
 }
@@ -66,7 +69,7 @@ fn wander(pitch: &Pitch, config: WandererConfig, legs: u32, seed: u64) -> Wander
     let model = Pioneer2dx::new(quick(pitch, seed)).unwrap();
     let start = pitch.start(seed).unwrap();
     let mut robot = Watched {
-        solo: Solo::new(pitch.world.clone(), model, start, seed).unwrap(),
+        solo: Solo::new(pitch.course.world.clone(), model, start, seed).unwrap(),
         pitch,
         steps: 0,
         visited: BTreeSet::new(),
@@ -89,15 +92,16 @@ fn wander(pitch: &Pitch, config: WandererConfig, legs: u32, seed: u64) -> Wander
 /// Returns the cells where the middle of the robot can be: those that hold a place with room for
 /// half its width.
 fn reachable(pitch: &Pitch) -> BTreeSet<Cell> {
-    let (bounds, steps) = (pitch.bounds(), 160);
+    let (bounds, steps) = (pitch.cells.bounds(), 160);
     let points = (0..steps).flat_map(|x| (0..steps).map(move |y| (x, y)));
     let points = points.map(|(x, y)| {
         let along = |index: i32, size: f64| (f64::from(index) + 0.5) / f64::from(steps) * size;
         bounds.min + tolman_geom::Vector::new(along(x, bounds.width()), along(y, bounds.height()))
     });
-    let free = points
-        .filter(|point| pitch.holds(*point) && pitch.world.nearest_wall_distance(*point) > 0.4);
-    free.map(|point| pitch.cell_of(point)).collect()
+    let free = points.filter(|point| {
+        pitch.course.leads_on(*point) && pitch.course.world.nearest_wall_distance(*point) > 0.4
+    });
+    free.map(|point| pitch.cells.cell_of(point)).collect()
 }
 
 /// Checks that 300 legs miss at most the share `most_missed` of the cells that can be reached.
@@ -105,7 +109,7 @@ fn check(pitch: &Pitch, config: WandererConfig, seed: u64, most_missed: f64) {
     let wandered = wander(pitch, config, 300, seed);
     let all = reachable(pitch);
     let missed = all.difference(&wandered.visited).count();
-    let name = &pitch.name;
+    let name = &pitch.course.name;
     assert!(wandered.bumps < 0.01, "{name}: {}", wandered.bumps);
     assert!(wandered.idle < 0.02, "{name}: {}", wandered.idle);
     let share = missed as f64 / all.len() as f64;
@@ -131,7 +135,7 @@ fn by_the_papers_limits_it_gets_nearly_everywhere() {
 }
 
 fn data(seed: u64) -> DataSet {
-    let pitch = Pitch::paper().unwrap();
+    let pitch = Pitch::named("pitch").unwrap();
     gather(&pitch, quick(&pitch, seed), seed, 300).unwrap()
 }
 
@@ -139,14 +143,14 @@ fn data(seed: u64) -> DataSet {
 /// of their records.
 #[test]
 fn the_truth_is_written_down_beside_the_records() {
-    let (data, pitch) = (data(1), Pitch::paper().unwrap());
+    let (data, pitch) = (data(1), Pitch::named("pitch").unwrap());
     let wrong = data
         .records
         .iter()
         .filter(|record| record.label != record.cell);
     assert_eq!(wrong.count(), 3);
     for record in &data.records {
-        assert_eq!(record.cell, pitch.cell_of(record.truth.position));
+        assert_eq!(record.cell, pitch.cells.cell_of(record.truth.position));
     }
     let goals = [
         (data.goals.blue, pitch.goals.blue),
@@ -172,10 +176,10 @@ fn the_same_seed_gathers_the_same_data() {
 /// and no camera.
 #[test]
 fn a_robot_with_a_laser_wanders_too() {
-    let pitch = Pitch::paper().unwrap();
+    let pitch = Pitch::named("pitch").unwrap();
     let model = LaserPioneer::new(LaserPioneerConfig::noiseless()).unwrap();
     let start = pitch.start(1).unwrap();
-    let mut robot = Solo::new(pitch.world.clone(), model, start, 1).unwrap();
+    let mut robot = Solo::new(pitch.course.world.clone(), model, start, 1).unwrap();
     let mut config = WandererConfig::paper();
     config.drive.translate = 0.08;
     config.drive.turn = 0.15;
@@ -193,26 +197,17 @@ fn a_robot_with_a_laser_wanders_too() {
 #[test]
 fn arenas_have_names() {
     for name in ["pitch", "hall", "l-room", "random-12"] {
-        assert_eq!(Pitch::named(name).unwrap().name, name);
+        assert_eq!(Pitch::named(name).unwrap().course.name, name);
     }
     let told = Pitch::named("beach").unwrap_err().to_string();
     assert!(
         told.starts_with("no arena is called \"beach\"; the arenas are"),
         "{told}"
     );
-    let told = Pitch::paper()
+    let told = Pitch::named("pitch")
         .unwrap()
         .robot(1, 0.9)
         .unwrap_err()
         .to_string();
     assert_eq!(told, "`calibration` is 0.9; give a share from 0 to 0.5");
-}
-
-/// What `tolman pitch world pitch` writes lies among the worlds.
-#[test]
-fn the_pitch_among_the_worlds_is_the_pitch() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/mazes/worlds/pitch.json");
-    let written = std::fs::read_to_string(path).unwrap();
-    let world = Pitch::paper().unwrap().world_to_goal().unwrap();
-    assert_eq!(written, world.to_json().unwrap() + "\n");
 }

@@ -15,7 +15,7 @@ const RECORDS: usize = 300;
 
 /// Records by wheels that are right.
 fn data(pitch: &Pitch) -> DataSet {
-    gather(pitch, pitch.robot(4, 0.0).unwrap(), 4, RECORDS).unwrap()
+    gather(pitch, pitch.robot(4, 0.0).unwrap(), 4, RECORDS as u32).unwrap()
 }
 
 /// Returns the score of a map, and a distance in cells. The distance says how much farther north
@@ -53,7 +53,7 @@ fn learned(data: &DataSet, pitch: &Pitch) -> (PlaceScore, f64) {
 
 #[test]
 fn the_windows_are_on_their_side_of_the_map() {
-    let pitch = Pitch::paper().unwrap();
+    let pitch = Pitch::named("pitch").unwrap();
     let mut data = data(&pitch);
     let (score, north) = learned(&data, &pitch);
     assert!(score.mean.by_centre > 2.0 * 0.175, "{score:?}");

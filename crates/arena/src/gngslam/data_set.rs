@@ -83,7 +83,7 @@ fn cost(pitch: &Pitch, pose: Pose, goal: Pose) -> f64 {
     let off = (distance - BEST) / OFF;
     let aside = pose.heading.turn_to(towards) / ASIDE;
     let aslant = goal.heading.turn_to(towards.reversed()) / ASLANT;
-    let caster = pitch.world.caster();
+    let caster = pitch.course.world.caster();
     let sight = caster.cast(pose.position, towards.unit(), distance);
     let hidden = if sight < distance - PROUD {
         HIDDEN

@@ -338,7 +338,7 @@ mod tests {
     use super::*;
 
     fn data() -> DataSet {
-        let pitch = Pitch::paper().unwrap();
+        let pitch = Pitch::named("pitch").unwrap();
         gather(&pitch, pitch.robot(1, 0.03).unwrap(), 1, 6).unwrap()
     }
 

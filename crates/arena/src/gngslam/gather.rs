@@ -1,13 +1,14 @@
 use thiserror::Error;
-use tolman_robot::Stopping;
+use tolman_robot::{Standing, Stopping};
 use tolman_sim::StepError;
 use tolman_sim::robots::{Pioneer2dx, Pioneer2dxConfig};
 use tolman_systems::gngslam::{Wanderer, WandererConfig, WandererError};
 use tolman_systems::stream;
 
 use super::data_set::mislabel;
-use super::{DataSet, GoalRecords, LabelledRecord, Pitch, PutError};
+use super::{DataSet, GoalRecords, LabelledRecord, Pitch, PitchError};
 use crate::Simulated;
+use crate::run::within;
 
 /// Reason why no data was gathered.
 #[derive(Debug, Error)]
@@ -18,7 +19,7 @@ pub enum GatherError {
     NoRecords,
     /// The robot cannot be put into the arena.
     #[error(transparent)]
-    Robot(#[from] PutError),
+    Pitch(#[from] PitchError),
     /// The robot got stuck or took no snapshot.
     #[error(transparent)]
     Wanderer(#[from] WandererError<StepError>),
@@ -38,75 +39,57 @@ const LABELS: u64 = 3;
 /// ```
 /// use tolman_arena::gngslam::{Pitch, gather};
 ///
-/// let pitch = Pitch::paper()?;
+/// let pitch = Pitch::named("pitch")?;
 /// let data = gather(&pitch, pitch.robot(1, 0.0)?, 1, 12)?;
 /// assert_eq!(data.records.len(), 12);
-/// assert!(data.records.iter().all(|record| pitch.holds(record.truth.position)));
+/// assert!(data.records.iter().all(|record| pitch.course.leads_on(record.truth.position)));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn gather(
     pitch: &Pitch,
     robot: Pioneer2dxConfig,
     seed: u64,
-    count: usize,
-) -> Result<DataSet, GatherError> {
-    gather_with(pitch, robot, WandererConfig::paper(), seed, count)
-}
-
-/// Gathers like [`gather`], with other parameters of wandering.
-///
-/// # Errors
-/// As [`gather`].
-pub fn gather_with(
-    pitch: &Pitch,
-    robot: Pioneer2dxConfig,
-    wanderer: WandererConfig,
-    seed: u64,
-    count: usize,
+    count: u32,
 ) -> Result<DataSet, GatherError> {
     let mut robot = pitch.put(robot, seed)?;
-    let mut wanderer = Wanderer::new(wanderer, seed);
+    let mut wanderer = Wanderer::new(WandererConfig::paper(), seed);
     gather_by(pitch, &mut robot, &mut wanderer, seed, count)
 }
 
-/// Gathers records like [`gather`], with the caller's own robot and wanderer.
-pub(super) fn gather_by(
+/// Gathers records like [`gather`], with the caller's own robot and wanderer, which may go on
+/// afterwards.
+///
+/// # Errors
+/// As [`gather`].
+pub fn gather_by(
     pitch: &Pitch,
     robot: &mut Stopping<Simulated<Pioneer2dx>>,
     wanderer: &mut Wanderer,
     seed: u64,
-    count: usize,
+    count: u32,
 ) -> Result<DataSet, GatherError> {
     if count == 0 {
         return Err(GatherError::NoRecords);
     }
-    let mut records = Vec::with_capacity(count);
-    for _ in 0..count {
-        records.push(next(pitch, robot, wanderer)?);
-    }
+    let mut records = Vec::with_capacity(count as usize);
+    within(count, || {
+        let record = wanderer.leg(robot)?;
+        let truth = robot.truth().pose;
+        let cell = pitch.cells.cell_of(truth.position);
+        records.push(LabelledRecord {
+            record,
+            truth,
+            cell,
+            label: cell,
+        });
+        Ok::<_, GatherError>(Standing::UnderWay)
+    })?;
     mislabel(&mut records, &mut stream(seed, LABELS));
     Ok(DataSet {
-        arena: pitch.name.clone(),
+        arena: pitch.course.name.clone(),
         seed,
-        cells: pitch.cells(),
+        cells: pitch.cells,
         goals: GoalRecords::find(pitch, &records),
         records,
-    })
-}
-
-/// Returns the next record, with the truth.
-fn next(
-    pitch: &Pitch,
-    robot: &mut Stopping<Simulated<Pioneer2dx>>,
-    wanderer: &mut Wanderer,
-) -> Result<LabelledRecord, GatherError> {
-    let record = wanderer.leg(robot)?;
-    let truth = robot.truth().pose;
-    let cell = pitch.cell_of(truth.position);
-    Ok(LabelledRecord {
-        record,
-        truth,
-        cell,
-        label: cell,
     })
 }

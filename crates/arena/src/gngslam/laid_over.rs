@@ -43,7 +43,7 @@ impl LaidOver {
 }
 
 /// Returns the rigid motion that brings the first points of all pairs nearest to the second.
-pub(super) fn rigid_motion(pairs: &[(Point, Point)]) -> Pose {
+fn rigid_motion(pairs: &[(Point, Point)]) -> Pose {
     let count = pairs.len().max(1) as f64;
     let sum = |sum: (Vector, Vector), (from, to): &(Point, Point)| {
         (sum.0 + from.coords, sum.1 + to.coords)

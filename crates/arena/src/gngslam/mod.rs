@@ -3,43 +3,32 @@
 //! Goldhoorn, Stadman, Eldering: "Implementation of a Simultaneous Localization and Mapping system
 //! using Growing Neural Gas", 2006. In the order data flows:
 //!
-//! 1. A [`Pitch`] is an arena with two goals: the paper's (section 3.1), two others, and any number
-//!    by seed. It knows the truth: where the goals are, and in which of 8 × 8
-//!    [cells](Pitch::cell_of) a point lies.
+//! 1. A [`Pitch`] is a [course](crate::course::Course) with two goals: the paper's (section 3.1),
+//!    two others, and any number by seed. It knows the truth: where the goals are, and in which of
+//!    8 × 8 [cells](CellGrid::cell_of) a point lies.
 //! 2. [`gather`] lets a robot wander in one (section 3.2), and writes the truth beside each record:
 //!    a [`DataSet`].
 //! 3. [`DataSet::to_text`] and [`DataSet::from_text`] keep it in a file.
 //! 4. A [`PlaceScorer`] turns and stretches a map onto the cells ([`FieldFromMap`]) and asks it
 //!    about some of the records (section 3.4, *Score*). Each answer has a [`PointScore`].
-//! 5. [`drive_place_map`] drives by a map that was learned of such a data set.
-//! 6. [`learn_online`] and [`localize_online`] run the system that corrects its pose while it
-//!    learns.
 
 mod cells;
 mod data_set;
 mod data_text;
-mod driven;
 mod field_from_map;
 mod gather;
 mod laid_over;
-mod online;
 mod pitch;
-mod pitches;
 mod point_score;
-mod put;
 mod random_pitch;
-mod room;
 mod score;
 
 pub use cells::CellGrid;
 pub use data_set::{DataSet, GoalRecords, LabelledRecord};
 pub use data_text::DataTextError;
-pub use driven::{DrivenMap, DrivenMapError, PlaceDrive, drive_place_map};
 pub use field_from_map::{FieldExtent, FieldFrame, FieldFromMap};
-pub use gather::{GatherError, gather, gather_with};
+pub use gather::{GatherError, gather, gather_by};
 pub use laid_over::LaidOver;
-pub use online::{LookedFrom, OnlineRun, OnlineRunError, learn_online, localize_online};
 pub use pitch::{Goals, PIONEER_2DX, Pitch, PitchError, paper_robot};
 pub use point_score::PointScore;
-pub use put::PutError;
 pub use score::{GoalNodes, PlaceScore, PlaceScorer};

@@ -1,33 +1,33 @@
-use alloc::sync::Arc;
 use core::f64::consts::PI;
 
-use rand::{Rng, RngExt};
+use rand::RngExt;
 use thiserror::Error;
 use tolman_geom::{Heading, Point, Pose, Vector};
-use tolman_maze::Cell;
-use tolman_robot::pioneer_2dx;
-use tolman_sim::robots::{Pioneer2dxConfig, WheelScale};
+use tolman_robot::{Stopping, pioneer_2dx};
+use tolman_sim::robots::{Pioneer2dx, Pioneer2dxConfig, Pioneer2dxError, WheelScale};
 use tolman_sim::sensors::{Backdrop, Light};
-use tolman_sim::{Area, Bounds, World, WorldError, Zone};
+use tolman_sim::{Bounds, PlaceError, World, WorldError, WorldFileError};
 use tolman_systems::stream;
 
 use super::CellGrid;
-use super::room::Room;
+use crate::Simulated;
+use crate::course::{Course, CourseError};
+use crate::pioneer::CORRIDOR_WIDTH;
 
-/// An arena of the place map: its world, and the truth about it.
+/// An arena of the place map: a course in a free world, and the truth about it.
 #[derive(Clone, Debug)]
 pub struct Pitch {
-    /// Name of the arena: see [`named`](Self::named).
-    pub name: String,
-    /// Walls, goals, windows and furniture of the arena.
-    pub world: Arc<World>,
+    /// Walls, goals, windows and furniture. The zone `destination` lies before the blue goal, and
+    /// `start` before the yellow one.
+    pub course: Course,
     /// Poses of the arena's goals.
     pub goals: Goals,
+    /// The 8 × 8 cells over its floor.
+    pub cells: CellGrid,
     /// Lighting of the arena.
     pub light: Light,
     /// Colours of the arena's floor and ceiling.
     pub backdrop: Backdrop,
-    pub(super) room: Room,
 }
 
 /// Middle of each goal's foot, with a heading onto the floor. In random arenas the goals have other
@@ -40,8 +40,8 @@ pub struct Goals {
     pub yellow: Pose,
 }
 
-/// Reason why there is no such arena, or no room in it.
-#[derive(Clone, Debug, PartialEq, Error)]
+/// Reason why there is no such arena, or no robot in it.
+#[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PitchError {
     /// No arena has this name.
@@ -71,77 +71,129 @@ pub enum PitchError {
     /// The world cannot be built.
     #[error("no world can be built from the arena; correct its walls")]
     World(#[from] WorldError),
+    /// The world's file cannot be read.
+    #[error(transparent)]
+    File(#[from] WorldFileError),
+    /// No robot can run in the world.
+    #[error(transparent)]
+    Course(#[from] CourseError),
+    /// The robot cannot be built.
+    #[error("the robot cannot be built; correct its configuration")]
+    Robot(#[from] Pioneer2dxError),
+    /// The robot cannot stand where it begins.
+    #[error(transparent)]
+    Place(#[from] PlaceError),
 }
 
 /// Random streams of an arena's seed, one for each consumer.
 const START: u64 = 1;
 const WHEELS: u64 = 2;
 
-/// Distance from a goal to the middle of its zone, and the zone's radius, m.
-const ZONE_BEFORE: f64 = 0.8;
-const ZONE_RADIUS: f64 = 0.5;
-
 /// Number of positions tried for a start.
 const TRIES: u32 = 10_000;
 
+/// An arena that is always the same.
+struct Drawn {
+    name: &'static str,
+    /// The world's file.
+    world: &'static str,
+    /// Corner in the north-east of the floor, whose south-western corner is the origin.
+    corner: Point,
+    goals: Goals,
+    windows: Heading,
+    floor: [u8; 3],
+}
+
+const fn goal(x: f64, y: f64, heading: Heading) -> Pose {
+    Pose::new(Point::new(x, y), heading)
+}
+
+/// The paper's pitch (section 3.1), and two that are not in the paper:
+///
+/// - `pitch` is 4 × 4.6 m of green floor with white boarding 0.4 m high. A blue goal stands in the
+///   east and a yellow one in the west, on the short sides. It lies in a room with windows in the
+///   north, and a door and a cupboard in the south.
+/// - `hall` has 8 × 6 m and walls as high as a room. It has windows in the west, four pieces of
+///   furniture, and goals in the north and in the south.
+/// - `l-room` has 5 × 5 m without its corner in the north-east, with windows in the south. Neither
+///   goal can be seen from the other.
+const DRAWN: [Drawn; 3] = [
+    Drawn {
+        name: "pitch",
+        world: include_str!("../../mazes/worlds/pitch.json"),
+        corner: Point::new(4.6, 4.0),
+        goals: Goals {
+            blue: goal(4.6, 2.0, Heading::WEST),
+            yellow: goal(0.0, 2.0, Heading::EAST),
+        },
+        windows: Heading::NORTH,
+        floor: [40, 110, 60],
+    },
+    Drawn {
+        name: "hall",
+        world: include_str!("../../mazes/worlds/goal-hall.json"),
+        corner: Point::new(8.0, 6.0),
+        goals: Goals {
+            blue: goal(4.0, 0.0, Heading::NORTH),
+            yellow: goal(4.0, 6.0, Heading::SOUTH),
+        },
+        windows: Heading::WEST,
+        floor: [150, 140, 125],
+    },
+    Drawn {
+        name: "l-room",
+        world: include_str!("../../mazes/worlds/l-room.json"),
+        corner: Point::new(5.0, 5.0),
+        goals: Goals {
+            blue: goal(5.0, 1.3, Heading::WEST),
+            yellow: goal(1.3, 5.0, Heading::SOUTH),
+        },
+        windows: Heading::SOUTH,
+        floor: [95, 60, 55],
+    },
+];
+
 impl Pitch {
-    /// Returns the arena of this name: `pitch` for the [paper's](Self::paper), `hall`, `l-room`, or
-    /// `random-` with a seed.
+    /// Returns the arena of this name: `pitch` for the paper's, `hall`, `l-room`, or `random-` with
+    /// a seed.
     ///
     /// # Errors
     /// [`PitchError::Unknown`] if no arena has this name.
     pub fn named(name: &str) -> Result<Self, PitchError> {
-        match name {
-            "pitch" => Self::paper(),
-            "hall" => Self::hall(),
-            "l-room" => Self::l_room(),
-            _ => {
-                let seed = name.strip_prefix("random-");
-                let seed = seed.and_then(|seed| seed.parse().ok());
-                let name = name.to_owned();
-                Self::random(seed.ok_or(PitchError::Unknown { name })?)
-            }
+        if let Some(drawn) = DRAWN.iter().find(|drawn| drawn.name == name) {
+            let world = World::from_json(drawn.world)?;
+            let light = Light::daylight(drawn.windows);
+            return Self::of(name, world, drawn.corner, drawn.goals, light, drawn.floor);
         }
+        let seed = name.strip_prefix("random-");
+        let seed = seed.and_then(|seed| seed.parse().ok());
+        let name = name.to_owned();
+        Self::random(seed.ok_or(PitchError::Unknown { name })?)
     }
 
-    /// Returns the smallest rectangle that holds the floor.
-    #[must_use]
-    pub fn bounds(&self) -> Bounds {
-        self.room.bounds()
-    }
-
-    /// Returns the 8 × 8 cells over its floor.
-    #[must_use]
-    pub fn cells(&self) -> CellGrid {
-        CellGrid::over(self.bounds())
-    }
-
-    /// Returns the cell in which a point lies.
-    #[must_use]
-    pub fn cell_of(&self, point: Point) -> Cell {
-        self.cells().cell_of(point)
-    }
-
-    /// Returns whether a point lies on the floor and in no furniture.
-    #[must_use]
-    pub fn holds(&self, point: Point) -> bool {
-        self.room.holds(point)
-    }
-
-    /// Returns the arena's world for `tolman`'s commands: the zone `destination` lies before the
-    /// blue goal, and `start` before the yellow one.
-    ///
-    /// # Errors
-    /// None.
-    pub fn world_to_goal(&self) -> Result<World, PitchError> {
-        let before = |name: &str, goal: Pose| {
-            let centre = goal.position + goal.heading.unit() * ZONE_BEFORE;
-            let radius = ZONE_RADIUS;
-            Zone::new(name, vec![Area::Disc { centre, radius }])
-        };
-        let Goals { blue, yellow } = self.goals;
-        let world = World::clone(&self.world).with_zone(before("destination", blue))?;
-        Ok(world.with_zone(before("start", yellow))?)
+    pub(super) fn of(
+        name: &str,
+        world: World,
+        corner: Point,
+        goals: Goals,
+        light: Light,
+        floor: [u8; 3],
+    ) -> Result<Self, PitchError> {
+        let body = pioneer_2dx::body();
+        Ok(Self {
+            course: Course::in_free_world(name, world, CORRIDOR_WIDTH, &body)?,
+            goals,
+            cells: CellGrid::over(Bounds {
+                min: Point::origin(),
+                max: corner,
+            }),
+            light,
+            backdrop: Backdrop {
+                floor,
+                ceiling: [200, 200, 195],
+                stains: 0.08,
+            },
+        })
     }
 
     /// Returns the start of a run: a random position where a Pioneer 2-DX can turn, with a random
@@ -152,26 +204,24 @@ impl Pitch {
     pub fn start(&self, seed: u64) -> Result<Pose, PitchError> {
         let mut rng = stream(seed, START);
         let radius = pioneer_2dx::body().radius() + 0.02;
-        let mut places = (0..TRIES).map(|_| self.anywhere(&mut rng));
+        let bounds = self.cells.bounds();
+        let mut poses = (0..TRIES).map(|_| {
+            let offset = Vector::new(
+                rng.random_range(0.0..bounds.width()),
+                rng.random_range(0.0..bounds.height()),
+            );
+            let heading = Heading::from_radians(rng.random_range(-PI..PI));
+            Pose::new(bounds.min + offset, heading)
+        });
+        let Course { name, world, .. } = &self.course;
         let is_free = |pose: &Pose| {
             let at = pose.position;
-            self.holds(at) && self.world.nearest_wall_distance(at) > radius
+            world.nearest_wall_distance(at) > radius && self.course.leads_on(at)
         };
-        places.find(is_free).ok_or_else(|| PitchError::NoRoom {
-            name: self.name.clone(),
+        poses.find(is_free).ok_or_else(|| PitchError::NoRoom {
+            name: name.clone(),
             tries: TRIES,
         })
-    }
-
-    /// Returns a random pose in the bounding rectangle of the floor.
-    fn anywhere(&self, rng: &mut impl Rng) -> Pose {
-        let bounds = self.bounds();
-        let offset = Vector::new(
-            rng.random_range(0.0..bounds.width()),
-            rng.random_range(0.0..bounds.height()),
-        );
-        let heading = Heading::from_radians(rng.random_range(-PI..PI));
-        Pose::new(bounds.min + offset, heading)
     }
 
     /// Returns the [paper's robot](paper_robot) in this arena's light.
@@ -183,6 +233,21 @@ impl Pitch {
         robot.camera.light = self.light;
         robot.camera.backdrop = self.backdrop;
         Ok(robot)
+    }
+
+    /// Returns a robot at the [start](Self::start) of a run with this `seed`, at rest. It stands
+    /// still when the run is over.
+    ///
+    /// # Errors
+    /// [`PitchError`] if it cannot be built or cannot stand there.
+    pub fn put(
+        &self,
+        robot: Pioneer2dxConfig,
+        seed: u64,
+    ) -> Result<Stopping<Simulated<Pioneer2dx>>, PitchError> {
+        let robot = Pioneer2dx::new(robot)?;
+        let robot = self.course.robot_at(self.start(seed)?, robot, seed)?;
+        Ok(Stopping::new(robot))
     }
 }
 

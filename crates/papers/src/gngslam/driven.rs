@@ -1,10 +1,17 @@
 //! Drives by the paper's map (section 3.4, "find a path").
 
-use tolman_arena::gngslam::{DrivenMap, Pitch, PlaceDrive, drive_place_map};
+use rand::RngExt;
+use tolman_arena::gngslam::{Pitch, gather_by};
+use tolman_arena::run::{TaskEnd, within};
 use tolman_draw::{Figure, FloorPlan, GraphEdge, GraphNode, GraphPicture, NodeMark, Series};
 use tolman_experiment::{BoxError, Fields, Job, Metric, Options, Record, Row, Run, Table, record};
-use tolman_maps::place_map::PlaceMapConfig;
-use tolman_robot::Standing;
+use tolman_geom::{Point, Pose};
+use tolman_maps::place_map::{
+    ColourSpace, FeatureChoice, FeatureTable, ImageFeature, ImageForm, PlaceMap, PlaceMapConfig,
+    PlaceRecord,
+};
+use tolman_systems::gngslam::{PlacePilot, PlacePilotConfig, Wanderer, WandererConfig};
+use tolman_systems::stream;
 
 /// Name of the table.
 const DRIVEN: &str = "driven";
@@ -18,8 +25,14 @@ const RUNS: u32 = 40;
 const QUICK_RUNS: u32 = 2;
 
 /// Number of records in the paper, and number of drives by each map.
-const RECORDS: usize = 1006;
+const RECORDS: u32 = 1006;
 const DRIVES: u32 = 10;
+
+/// Maximum number of pieces of way in a drive.
+const MOST_PIECES: u32 = 60;
+
+/// Random stream of a run's seed for the map and the goals.
+const DRIVES_STREAM: u64 = 4;
 
 /// Distance from the goal within which a drive ends near it, m.
 const NEAR: f64 = 1.0;
@@ -69,37 +82,107 @@ pub(super) fn table(options: &Options) -> Table {
         ))
 }
 
+/// A place map, and drives by it.
+struct DrivenMap {
+    map: PlaceMap,
+    /// True pose of the origin of the map's odometry.
+    world_from_map: Pose,
+    /// Each drive begins where the one before ended.
+    drives: Vec<PlaceDrive>,
+}
+
+/// A drive to the place of a record.
+struct PlaceDrive {
+    /// True position of the robot at each look, m. The first one is where the drive began.
+    path: Vec<Point>,
+    /// True position at which the record was taken, m.
+    goal: Point,
+    end: TaskEnd,
+}
+
+impl PlaceDrive {
+    /// Returns the distance of the robot from the goal at the end, m.
+    fn error_m(&self) -> f64 {
+        self.off(self.path.last())
+    }
+
+    /// Returns the distance of the robot from the goal at the start, m.
+    fn start_m(&self) -> f64 {
+        self.off(self.path.first())
+    }
+
+    fn off(&self, at: Option<&Point>) -> f64 {
+        at.map_or(f64::INFINITY, |at| (at - self.goal).norm())
+    }
+}
+
 fn driven(row: &str, seed: u64) -> Result<DrivenMap, BoxError> {
     let period = ROWS.iter().find(|(name, _)| *name == row);
     let (_, period) = period.ok_or_else(|| format!("there is no row {row:?} of {DRIVEN}"))?;
+    drive_place_map(*period, seed, RECORDS, DRIVES)
+}
+
+/// Gathers `records` records on the pitch and learns a place map of image and odometry with the
+/// paper's settings but for λ, `period`. Then the same robot drives on by that map to the places of
+/// `drives` random records. `seed` seeds all random numbers.
+fn drive_place_map(
+    period: u32,
+    seed: u64,
+    records: u32,
+    drives: u32,
+) -> Result<DrivenMap, BoxError> {
+    let pitch = Pitch::named("pitch")?;
+    let mut robot = pitch.put(pitch.robot(seed, 0.0)?, seed)?;
+    let world_from_map = robot.truth().pose;
+    let mut wanderer = Wanderer::new(WandererConfig::paper(), seed);
+    let data = gather_by(&pitch, &mut robot, &mut wanderer, seed, records)?;
+    let known = data.records.iter().map(|record| record.record.clone());
+    let known: Vec<PlaceRecord> = known.collect();
+    let choice = FeatureChoice::paper(ImageFeature::small(ColourSpace::Hsv));
+    let table = FeatureTable::of(&known, &choice, ImageForm::Pixels)?;
+    let mut rng = stream(seed, DRIVES_STREAM);
     let mut config = PlaceMapConfig::paper();
-    config.gng.growth_period = *period;
-    Ok(drive_place_map(
-        &Pitch::paper()?,
-        config,
-        seed,
-        RECORDS,
-        DRIVES,
-    )?)
+    config.gng.growth_period = period;
+    let map = PlaceMap::learn(&table, 0..known.len(), config, &mut rng)?;
+    let mut driven = Vec::new();
+    for _ in 0..drives {
+        let wanted = rng.random_range(0..known.len() as u32) as usize;
+        let goal = map.nearest(&known[wanted])?;
+        let mut pilot = PlacePilot::new(&map, PlacePilotConfig::pioneer_2dx(), goal);
+        let mut path = vec![robot.truth().pose.position];
+        let ended = within(MOST_PIECES, || {
+            let standing = pilot.act(&mut robot, &mut wanderer)?;
+            path.push(robot.truth().pose.position);
+            Ok::<_, BoxError>(standing)
+        })?;
+        driven.push(PlaceDrive {
+            path,
+            goal: data.records[wanted].truth.position,
+            end: ended.end,
+        });
+    }
+    Ok(DrivenMap {
+        map,
+        world_from_map,
+        drives: driven,
+    })
 }
 
 pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     let DrivenMap { map, drives, .. } = driven(job.row, job.seed)?;
-    let count = drives.len().max(1) as f64;
-    let percent = |is: &dyn Fn(usize) -> bool| {
-        100.0 * (0..drives.len()).filter(|drive| is(*drive)).count() as f64 / count
+    let mean = |of: &dyn Fn(&PlaceDrive) -> f64| {
+        drives.iter().map(of).sum::<f64>() / drives.len().max(1) as f64
+    };
+    let percent = |is: &dyn Fn(&PlaceDrive) -> bool| {
+        100.0 * drives.iter().filter(|drive| is(drive)).count() as f64 / drives.len().max(1) as f64
     };
     let fields = DrivenFields {
-        error_m: drives.iter().map(PlaceDrive::error_m).sum::<f64>() / count,
-        start_m: drives.iter().map(PlaceDrive::start_m).sum::<f64>() / count,
-        near_percent: percent(&|drive| drives[drive].error_m() < NEAR),
-        near_at_start_percent: percent(&|drive| drives[drive].start_m() < NEAR),
-        done_percent: percent(&|drive| drives[drive].standing == Standing::Done),
-        pieces: drives
-            .iter()
-            .map(|drive| (drive.path.len() - 1) as f64)
-            .sum::<f64>()
-            / count,
+        error_m: mean(&PlaceDrive::error_m),
+        start_m: mean(&PlaceDrive::start_m),
+        near_percent: percent(&|drive| drive.error_m() < NEAR),
+        near_at_start_percent: percent(&|drive| drive.start_m() < NEAR),
+        done_percent: percent(&|drive| drive.end == TaskEnd::Done),
+        pieces: mean(&|drive| (drive.path.len() - 1) as f64),
         nodes: map.network().ids().count(),
     };
     Ok(fields.fields()?)
@@ -125,7 +208,7 @@ pub(super) fn figures(runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
         world_from_map,
         drives,
     } = driven(row, run.seed)?;
-    let mut plan = FloorPlan::of_world(&Pitch::paper()?.world, WIDTH);
+    let mut plan = FloorPlan::of_world(&Pitch::named("pitch")?.course.world, WIDTH);
     let mut graph = GraphPicture::new().radius(2.0);
     let positions: Vec<_> = map.positions().collect();
     for (_, position) in &positions {
@@ -149,4 +232,20 @@ pub(super) fn figures(runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
             .caption("Nodes lie where the odometry had them, and the robot where it truly was. Each drive begins where the one before ended.")
             .table(DRIVEN),
     ])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_way_on_the_map_is_driven() {
+        let driven = drive_place_map(30, 2, 200, 6).unwrap();
+        let drives = driven.drives.iter();
+        let done = drives.filter(|drive| drive.end == TaskEnd::Done);
+        assert!(done.count() >= 5);
+        let mean = |of: fn(&PlaceDrive) -> f64| driven.drives.iter().map(of).sum::<f64>() / 6.0;
+        let (end, start) = (mean(PlaceDrive::error_m), mean(PlaceDrive::start_m));
+        assert!(end < 0.8 * start, "{end} m of {start} m");
+    }
 }

@@ -8,6 +8,7 @@ mod drawings;
 mod driven;
 mod figures;
 mod guesses;
+mod looks;
 mod online;
 mod optimum;
 mod places;

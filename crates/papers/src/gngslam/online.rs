@@ -4,17 +4,16 @@ use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
 use std::sync::{Mutex, PoisonError};
 
-use tolman_arena::gngslam::{
-    LookedFrom, OnlineRun, Pitch, PointScore, learn_online, localize_online,
-};
+use tolman_arena::gngslam::{Pitch, PointScore};
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
 use tolman_experiment::{
     BoxError, Fields, Job, Metric, Options, Record, Row, Run, Table, record, run_seed,
 };
 use tolman_geom::Point;
 use tolman_robot::pioneer_2dx::TRACK;
-use tolman_systems::gngslam::OnlineSlamConfig;
+use tolman_systems::gngslam::{OnlineSlam, OnlineSlamConfig};
 
+use super::looks::{LookedFrom, OnlineRun};
 use super::{ASKED, RANDOM, guesses};
 
 /// Names of the tables.
@@ -152,7 +151,7 @@ pub(super) fn run(long: &LongRuns, job: &Job<'_>) -> Result<Fields, BoxError> {
             let pitch = Pitch::random(FIRST_BAD + u64::from(job.run))?;
             tried_with(&pitch, config, BADLY, job.seed)?
         }
-        (ONLINE, _) => tried(&Pitch::paper()?, job.seed)?,
+        (ONLINE, _) => tried(&Pitch::named("pitch")?, job.seed)?,
         (BY_SEED, _) => tried(&Pitch::random(job.seed)?, job.seed)?,
         (_, arena) => tried(&Pitch::named(arena)?, job.seed)?,
     };
@@ -181,10 +180,11 @@ fn tried_with(
     calibration: f64,
     seed: u64,
 ) -> Result<OnlineFields, BoxError> {
-    let mut learned = learn_online(pitch, config, calibration, seed, LEARNED)?;
-    learned.align(0..LEARNED as usize);
+    let learned = learn(pitch, config, calibration, seed, LEARNED)?;
     let other = run_seed(seed, "tried", 0);
-    let tried = localize_online(pitch, &learned, config, calibration, other, TRIED)?;
+    let system = OnlineSlam::on(learned.map.clone().put_down(false), config, other);
+    let origin = Some(learned.world_from_map);
+    let tried = OnlineRun::of(pitch, system, origin, calibration, other, TRIED)?;
     let scores = tried.looks.iter().map(|look| score(pitch, look));
     let localized = (0..).zip(&tried.looks).find(|(_, look)| look.is_localized);
     Ok(OnlineFields {
@@ -195,12 +195,25 @@ fn tried_with(
     })
 }
 
+/// Returns a run that learns an arena, aligned with it by the first [`LEARNED`] looks.
+fn learn(
+    pitch: &Pitch,
+    config: OnlineSlamConfig,
+    calibration: f64,
+    seed: u64,
+    looks: u32,
+) -> Result<OnlineRun, BoxError> {
+    let system = OnlineSlam::new(config, seed);
+    let run = OnlineRun::of(pitch, system, None, calibration, seed, looks)?;
+    Ok(run.aligned(LEARNED as usize))
+}
+
 /// Returns the score of a look, by the distance to the border of the true cell.
 fn score(pitch: &Pitch, look: &LookedFrom) -> f64 {
-    let (cells, size) = (pitch.cells(), pitch.cells().size());
+    let (cells, size) = (pitch.cells, pitch.cells.size());
     let off = look.corrected.position - cells.bounds().min;
     let in_cells = Point::new(off.x / size.x, off.y / size.y);
-    PointScore::of(pitch.cell_of(look.truth.position), in_cells).by_border
+    PointScore::of(cells.cell_of(look.truth.position), in_cells).by_border
 }
 
 /// Returns the errors of a run, by tenths.
@@ -242,11 +255,10 @@ impl LongRuns {
         if let Some(run) = &*made {
             return Ok(Arc::clone(run));
         }
-        let pitch = Pitch::paper()?;
+        let pitch = Pitch::named("pitch")?;
         let config = OnlineSlamConfig::pioneer_2dx();
-        let mut run = learn_online(&pitch, config, CALIBRATION, job.seed, LONGER * LEARNED)?;
-        run.align(0..LEARNED as usize);
-        let run = Arc::new(run);
+        let looks = LONGER * LEARNED;
+        let run = Arc::new(learn(&pitch, config, CALIBRATION, job.seed, looks)?);
         *made = Some(Arc::clone(&run));
         Ok(run)
     }

@@ -11,7 +11,7 @@ use tolman_sim::robots::Pioneer2dxConfig;
 use super::sets::{IMAGES, Source, Stretch};
 
 /// The paper's number of records.
-const RECORDS: usize = 1006;
+const RECORDS: u32 = 1006;
 
 /// Form of the images: coordinates in their span, with nothing left out.
 const FORM: ImageForm = ImageForm::Span { left_out: 0.0 };
@@ -35,7 +35,7 @@ struct Gathered {
 /// Configuration of the records, without the seed.
 #[derive(Serialize)]
 pub(super) struct Config {
-    count: usize,
+    count: u32,
     arena: String,
     scaling: FeatureScaling,
     robot: Pioneer2dxConfig,
@@ -61,18 +61,18 @@ impl Places {
 
     /// Returns the settings of the records, except the seed.
     pub(super) fn config(&self) -> Result<Config, BoxError> {
-        let pitch = Pitch::paper()?;
+        let pitch = Pitch::named("pitch")?;
         Ok(Config {
             count: RECORDS,
             robot: pitch.robot(self.seed, self.source.calibration)?,
             scaling: self.source.scaling,
-            arena: pitch.name,
+            arena: pitch.course.name,
         })
     }
 
     fn gathered(&self) -> Result<&Gathered, BoxError> {
         once(&self.gathered, || {
-            let pitch = Pitch::paper()?;
+            let pitch = Pitch::named("pitch")?;
             let robot = pitch.robot(self.seed, self.source.calibration)?;
             let data = gather(&pitch, robot, self.seed, RECORDS)?;
             Ok(Gathered { pitch, data })

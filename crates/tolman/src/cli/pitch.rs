@@ -58,7 +58,7 @@ pub(super) struct Gather {
     name: String,
     /// Number of records; the paper has 1006
     #[arg(long, value_name = "N", default_value_t = 1006)]
-    records: usize,
+    records: u32,
     /// Seed of all random numbers: the same seed gives the same result
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
@@ -121,7 +121,7 @@ impl Verb {
 
 fn world(arguments: &World, out: &mut dyn Write) -> Result<(), Failure> {
     let pitch = Pitch::named(&arguments.name).or_bad_input()?;
-    let text = pitch.world_to_goal()?.to_json()? + "\n";
+    let text = pitch.course.world.to_json()? + "\n";
     match &arguments.out {
         Some(path) => file::write(path, text),
         None => Ok(out.write_all(text.as_bytes())?),
@@ -217,7 +217,7 @@ const WIDTH: f64 = 640.0;
 /// Returns the arena with the places of the records. Filled ones show the goals best.
 fn picture(data: &DataSet) -> Result<String, Failure> {
     let pitch = Pitch::named(&data.arena).or_bad_input()?;
-    let mut plan = FloorPlan::of_world(&pitch.world, WIDTH);
+    let mut plan = FloorPlan::of_world(&pitch.course.world, WIDTH);
     let mut graph = GraphPicture::new().radius(2.0);
     for (index, record) in data.records.iter().enumerate() {
         let shows_goal = [data.goals.blue, data.goals.yellow].contains(&index);
