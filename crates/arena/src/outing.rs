@@ -347,6 +347,12 @@ impl<R: Robot, S> Sent<R, S> {
         }
     }
 
+    /// Returns the system.
+    #[must_use]
+    pub const fn system(&self) -> &S {
+        &self.system
+    }
+
     /// Notes where the robot truly is whenever `count`, the number of places on the map, has grown.
     #[must_use]
     pub fn counting(self, count: impl Fn(&S) -> usize + 'static) -> Self {

@@ -19,7 +19,7 @@ use tolman_maze::{Format, parse_as, read_as, write};
 use tolman_replay::Trace;
 use tolman_robot::epuck::WheelSpeeds;
 use tolman_robot::epuck_serial::SerialEpuck;
-use tolman_robot::{Mapper, Robot};
+use tolman_robot::{Mapper, Robot, Task};
 use tolman_sim::robots::{Epuck, LaserPioneer};
 use tolman_sim::trace::replay;
 use tolman_sim::{Occupancy, World};
@@ -297,11 +297,8 @@ pub(super) fn map_of_diktiometry(bytes: &[u8]) -> Answer {
         };
         file.to_json()
             .expect("a survey that was read can be written");
-        let survey = file.survey(0);
-        if let Ok(survey) = &survey {
-            let _ = (survey.score(), survey.drawn());
-        }
-        Answer::of(&survey)
+        let _ = (file.complaint(Task::Explore), file.goal());
+        Answer::Taken
     })
 }
 

@@ -1,6 +1,6 @@
 //! What the judge knows of a map beside the map: where the robot truly was. No system sees it.
 
-use alloc::collections::BTreeMap;
+use alloc::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
 use tolman_geom::Point;
@@ -117,6 +117,25 @@ impl Evidence {
         cells
             .map(|(place, x, y)| (*place, Cell::new(*x, *y)))
             .collect()
+    }
+
+    /// Returns the evidence of a map that was continued, as `later` has it.
+    #[must_use]
+    pub fn then(mut self, later: Self) -> Self {
+        let known: BTreeSet<u32> = self.stands_for.iter().map(|(place, ..)| *place).collect();
+        let new = later.stands_for.into_iter();
+        self.stands_for
+            .extend(new.filter(|(place, ..)| !known.contains(place)));
+        let known: BTreeSet<u32> = self.founded.iter().map(|(place, _)| *place).collect();
+        let new = later.founded.into_iter();
+        self.founded
+            .extend(new.filter(|(place, _)| !known.contains(place)));
+        self.way.extend(later.way);
+        self.purity = match (self.purity, later.purity) {
+            (Some(one), Some(other)) => Some(one.min(other)),
+            (one, other) => one.or(other),
+        };
+        self
     }
 
     /// Returns the judgement of a map of a maze, of which this is the evidence.

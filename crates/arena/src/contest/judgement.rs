@@ -482,19 +482,11 @@ o---o---o---o
             places: vec![place(0)],
             links: Vec::new(),
         };
-        let visits = [PlaceVisit {
-            place: 0,
-            cell: start,
-        }];
-        let judged = judge(&map, &visits, &truth, &BTreeSet::new(), (maze.grid(), 1.0));
+        let stands_for = BTreeMap::from([(0, start)]);
+        let judged = judge(&map, &stands_for, Some(1.0), &truth, &BTreeSet::new());
         assert!(judged.is_right_of_visited && !judged.is_right);
-        let empty = judge(
-            &MapView::default(),
-            &[],
-            &truth,
-            &BTreeSet::new(),
-            (maze.grid(), 1.0),
-        );
+        let map = MapView::default();
+        let empty = judge(&map, &BTreeMap::new(), None, &truth, &BTreeSet::new());
         assert!(!empty.is_right_of_visited && !empty.is_right);
     }
 

@@ -13,7 +13,6 @@ mod evidence;
 mod ideal;
 mod judgement;
 mod paint;
-mod pathfinder;
 mod play;
 mod show;
 mod sites;
@@ -27,7 +26,6 @@ pub use condition::Condition;
 pub(crate) use condition::with_door;
 pub use evidence::{Evidence, TrueVisits};
 pub use judgement::MapJudgement;
-pub(crate) use pathfinder::Pathfinder;
 pub use play::{
     Contest, ContestError, ContestRecord, Home, LearnRecord, LocateOutcome, Located, Moment,
 };
@@ -35,3 +33,5 @@ pub use show::{FoundOut, ShowRecord, WayHome};
 pub use stepped::{SteppedContest, TaskRecord};
 pub use true_graph::{PlaceRule, TrueGraph, TrueWay};
 pub use whereabouts::PlaceVisit;
+
+pub(crate) use true_graph::is_straight;

@@ -126,7 +126,7 @@ impl TrueGraph {
 }
 
 /// Returns whether a corridor leads straight on through a cell.
-fn is_straight(maze: &Maze, cell: Cell) -> bool {
+pub(crate) fn is_straight(maze: &Maze, cell: Cell) -> bool {
     let ways = Direction::ALL.map(|way| maze.is_open(cell, way));
     ways == [true, false, true, false] || ways == [false, true, false, true]
 }

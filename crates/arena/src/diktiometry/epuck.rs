@@ -13,15 +13,18 @@ use tolman_maps::diktiometry::{
     ViewRotation,
 };
 use tolman_maze::{Cell, Direction, Maze};
+use tolman_robot::{Standing, Task};
 use tolman_sim::robots::{Epuck, EpuckError};
 use tolman_sim::{PlaceError, StepError, World};
-use tolman_systems::diktiometry::{Arrival, MapError, MappedMove, Planner, Rover, RoverMap};
+use tolman_systems::cpm::{HeadingBy, WalkError, Walker};
+use tolman_systems::diktiometry::{
+    Arrival, Diktiometer, DiktiometerConfig, ExploreUntil, MapError, NoEye, RoutineConfig, Rover,
+};
 
 use super::{MapScore, Places, TruePlace, Visit, least_distance, score};
 use crate::course::{Course, CourseError};
 use crate::cpm::{SimulatedEpuck, TrueFragments, epuck, walker_config};
-use tolman_systems::cpm::{HeadingBy, WalkError, Walker};
-use tolman_systems::stream;
+use crate::run::{InRun, until_done};
 
 /// Parameters of an e-puck's survey of a maze.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -145,37 +148,35 @@ pub fn survey_maze(
     let mut rover = EpuckRover::new(maze, corridor_width, config, seed)?;
     let truth = true_places(maze, rover.world());
     let mapper = config.mapper(least_distance(&truth).unwrap_or(corridor_width));
-    let mut mapping = RoverMap::begin(&mut rover, mapper)?;
-    let mut planner = Planner::new(config.heed);
-    let mut rng = stream(seed, 1);
-    let visit = |rover: &EpuckRover, mapping: &RoverMap| Visit {
-        site: rover.site(maze),
-        place: mapping.observer().place(),
-    };
-    let mut visits = vec![visit(&rover, &mapping)];
+    // The e-puck has routines of its own.
+    let routines = RoutineConfig::new(corridor_width, 1.0, 1.0);
+    let mut paper = DiktiometerConfig::paper(routines, mapper);
+    (paper.heed, paper.until) = (config.heed, ExploreUntil::Never);
+    let mut system = Diktiometer::new(paper, NoEye, seed);
+    let mut sites = vec![rover.site(maze)];
     let (mut gone, mut bounded, mut trouble) = (Vec::new(), 0, None);
-    for _ in 0..config.moves {
-        let Some(decision) = planner.choose(mapping.observer(), mapping.exits(), &mut rng) else {
-            trouble = Some("no way leads on".to_owned());
-            break;
-        };
+    until_done(&mut rover, |rover| {
         let (site, before) = (rover.site(maze), rover.truth().position);
-        let arrival = match mapping.go(&mut rover, decision.direction) {
-            Ok(MappedMove { arrival, .. }) => arrival,
-            Err(MapError::Robot(error)) => {
-                trouble = Some(error.to_string());
-                break;
-            }
-            Err(error) => return Err(error.into()),
+        match system.act_with(rover, Task::Explore) {
+            Ok(Standing::GaveUp { why }) => trouble = Some(why),
+            Err(MapError::Robot(error)) => trouble = Some(error.to_string()),
+            acted => drop(acted?),
+        }
+        let Some(moved) = system.last_move().filter(|_| trouble.is_none()) else {
+            return Ok(Standing::Done);
         };
         let truly = rover.truth().position - before;
-        bounded += u32::from(arrival.moved.contains(truly.into()));
-        gone.push((site, decision.direction));
-        visits.push(visit(&rover, &mapping));
-    }
-    let paths = &mapping.observer().map().paths;
+        bounded += u32::from(moved.arrival.moved.contains(truly.into()));
+        gone.push((site, moved.direction));
+        sites.push(rover.site(maze));
+        Ok::<_, EpuckSurveyError>(match (gone.len() as u32) < config.moves {
+            true => Standing::UnderWay,
+            false => Standing::Done,
+        })
+    })?;
+    let visits = Visit::all(&system, &sites);
     Ok(EpuckSurvey {
-        score: score(paths, &visits, &gone, &truth),
+        score: score(system.observer(), &visits, &gone, &truth),
         moves: gone.len() as u32,
         bounded,
         trouble,
@@ -260,6 +261,16 @@ impl EpuckRover {
             look: Some(Signature::new(1, values.collect())?),
             exits: self.ways.map(|branch| branch.is_some()),
         })
+    }
+}
+
+impl InRun for EpuckRover {
+    fn steps(&self) -> u32 {
+        self.walker.steps()
+    }
+
+    fn is_out_of_time(&self) -> bool {
+        false
     }
 }
 

@@ -6,7 +6,7 @@ use alloc::collections::{BTreeMap, BTreeSet};
 use tolman_maze::Direction;
 use tolman_planners::{Graph, path_to};
 
-use super::{Places, leads, share};
+use super::{Places, TruePlace, leads, share};
 
 /// End of a way.
 #[derive(Clone, Copy, Debug)]
@@ -29,12 +29,12 @@ pub(super) struct Memory {
 }
 
 impl Memory {
-    /// Takes in which ways lead on from a site: `exits`, by direction.
-    pub(super) fn see(&mut self, site: u32, exits: &[bool; 4]) {
-        self.missed.remove(&site);
+    /// Takes in which ways lead on from the place where the robot is.
+    pub(super) fn see(&mut self, here: &TruePlace) {
+        self.missed.remove(&here.site);
         for direction in Direction::ALL {
-            let way = (site, direction);
-            if exits[direction.index()] {
+            let way = (here.site, direction);
+            if here.ways[direction.index()].is_some() {
                 self.shut.remove(&way);
             } else {
                 self.shut.insert(way);
@@ -106,37 +106,47 @@ impl Graph for Memory {
 
 #[cfg(test)]
 mod tests {
+    use tolman_geom::Point;
+
     use super::*;
+
+    /// Lets the robot see that all ways of a place lead on, or none.
+    fn see(memory: &mut Memory, site: u32, open: bool) {
+        memory.see(&TruePlace {
+            site,
+            position: Point::origin(),
+            ways: [open.then_some(0); 4],
+        });
+    }
 
     #[test]
     fn it_plans_by_what_it_saw_last() {
         let mut memory = Memory::default();
-        let all = [true; 4];
-        memory.see(0, &all);
+        see(&mut memory, 0, true);
         memory.go(0, Direction::East, 1, 2.0);
-        memory.see(1, &all);
+        see(&mut memory, 1, true);
         memory.go(1, Direction::East, 2, 2.0);
-        memory.see(2, &all);
+        see(&mut memory, 2, true);
         assert_eq!(memory.plan(0, 2), Some(vec![Direction::East; 2]));
         // The place in between no longer exists.
         memory.go(0, Direction::East, 2, 4.0);
         assert_eq!(memory.plan(0, 2), Some(vec![Direction::East]));
         assert_eq!(memory.plan(0, 1), None);
-        memory.see(0, &[false; 4]);
+        see(&mut memory, 0, false);
         assert_eq!(memory.plan(0, 2), None);
     }
 
     #[test]
     fn a_place_that_appears_hides_none_behind_it() {
         let mut memory = Memory::default();
-        memory.see(0, &[true; 4]);
+        see(&mut memory, 0, true);
         memory.go(0, Direction::East, 2, 4.0);
-        memory.see(2, &[true; 4]);
+        see(&mut memory, 2, true);
         memory.go(2, Direction::North, 3, 2.0);
         memory.go(3, Direction::South, 2, 2.0);
         // A door has opened into the corridor.
         memory.go(0, Direction::East, 1, 2.0);
-        memory.see(1, &[true; 4]);
+        see(&mut memory, 1, true);
         assert_eq!(memory.plan(3, 2), Some(vec![Direction::South]));
         assert_eq!(memory.plan(0, 2), None);
         memory.go(1, Direction::East, 2, 2.0);

@@ -1,9 +1,9 @@
 //! The diktiometry's worlds, runs and scores.
 //!
 //! An [`Office`] is a world with its true places, an [`OfficeRobot`] a simulated Pioneer in it. A
-//! [`Survey`] is one run: the [system](tolman_systems::diktiometry)'s planner, routines and map,
-//! with the truth beside; [`ErrorSummary`] and [`MapScore`] say how well it went. A [`SurveyFile`]
-//! keeps it. An [`EpuckSurvey`] is the same on CPM's e-puck in its mazes.
+//! [`Survey`] is one run of the [system](tolman_systems::diktiometry) there, with the truth beside;
+//! [`ErrorSummary`] and [`MapScore`] say how well it went. A [`SurveyFile`] keeps a map and goes on
+//! with it. An [`EpuckSurvey`] is a run on CPM's e-puck in its mazes.
 //!
 //! Source: S. Engelson, D. McDermott, "Maps Considered as Adaptive Planning Resources", AAAI Fall
 //! Symposium 1992, *Results*.
@@ -23,12 +23,10 @@ mod surveyor_config;
 pub use epuck::{EpuckRoverError, EpuckSurvey, EpuckSurveyConfig, EpuckSurveyError, survey_maze};
 pub use errors::{ErrorSummary, MoveError, NEAR, TAIL, WINDOW};
 pub use office::{Office, OfficeConfig, OfficeError, TruePlace, blocks};
-pub use office_robot::{OfficeRobot, OfficeSurveyor, office_robot, surveyor};
+pub use office_robot::{OfficeRobot, office_robot};
 pub use score::{MapScore, Visit, score};
-pub use survey::{
-    Past, PlaceMark, PlanTrial, RunError, Survey, SurveyConfig, SurveyedMove, mapper,
-};
-pub use survey_file::{SurveyFile, SurveyFileError};
+pub use survey::{PlanTrial, RunError, Survey, SurveyConfig, mapper};
+pub use survey_file::{SurveyFile, SurveyFileError, Surveyed};
 pub use surveyor_config::{PlaceCue, SurveyorConfig};
 
 use memory::Memory;

@@ -9,10 +9,15 @@ use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_control::unit_of;
 use tolman_geom::{Heading, Point, Pose, Vector};
+use tolman_maps::diktiometry::Config;
 use tolman_maze::{Cell, Direction, Grid, Maze};
 use tolman_robot::Body;
 use tolman_sim::{CorridorSize, Door, DoorState, Material, WallSegment, World, WorldError};
+use tolman_systems::diktiometry::DiktiometerConfig;
+use tolman_systems::stream;
 
+use super::{RunError, SurveyorConfig};
+use crate::contest::is_straight;
 use crate::course::Course;
 
 /// Depth of the narrow part of a doorway, in the middle of the wall, as a share of the corridor's
@@ -80,8 +85,6 @@ pub struct Office {
     pub course: Course,
     /// Passages that are doorways, each named from its south or west cell, in order.
     doorways: Vec<(Cell, Direction)>,
-    /// Number of each doorway: its index in `doorways`.
-    numbers: BTreeMap<(Cell, Direction), usize>,
     /// Cells that belong to the office, in the order of the grid.
     cells: Vec<Cell>,
     config: OfficeConfig,
@@ -178,13 +181,12 @@ impl Office {
         let world = World::from_segments(walls)?.with_cells_of(&bare);
         let numbered = doorways.iter().enumerate();
         let doors = numbered
-            .flat_map(|(number, (cell, direction))| config.leaves(number, *cell, *direction));
+            .flat_map(|(number, (cell, direction))| config.doors(number, *cell, *direction));
         let world = world
             .with_zones(bare.zones().iter().cloned())?
             .with_doors(doors)?;
         Ok(Self {
             course: Course::in_world("", maze.clone(), config.corridor_width, world),
-            numbers: doorways.iter().copied().zip(0..).collect(),
             doorways,
             cells,
             config: *config,
@@ -231,10 +233,7 @@ impl Office {
         };
         let width = self.config.corridor_width;
         let play = (0.5 * width - body.radius()).max(0.0) * 0.99;
-        let is_doorway = self
-            .passage(cell, direction)
-            .is_some_and(|at| self.numbers.contains_key(&at));
-        let shut_out = if is_doorway {
+        let shut_out = if self.doorway_at(cell, direction).is_some() {
             0.5 * DOORWAY_DEPTH * width + body.radius()
         } else {
             0.0
@@ -279,22 +278,58 @@ impl Office {
     /// O(cells · length of the longest corridor).
     #[must_use]
     pub fn places(&self, shut: &[usize]) -> BTreeMap<u32, TruePlace> {
-        let chart = Chart { office: self, shut };
+        let mut maze = self.course.maze.clone();
+        for (cell, direction) in shut.iter().map(|number| self.doorways[*number]) {
+            maze.set_wall(cell, direction, true);
+        }
         let corners = self.cells.iter().copied();
-        let corners = corners.filter(|cell| chart.is_corner(*cell));
+        let corners = corners.filter(|cell| is_corner(&maze, *cell));
         let corners = corners.map(|cell| TruePlace {
             site: self.site(cell),
             position: self.config.middle(cell),
-            ways: Direction::ALL.map(|direction| chart.onward(cell, direction)),
+            ways: Direction::ALL.map(|way| self.onward(&maze, cell, way)),
         });
         let doorways = (0..self.doorways.len()).filter(|number| !shut.contains(number));
         let doorways = doorways.map(|number| TruePlace {
             site: self.site_of_doorway(number),
             position: self.doorway(number),
-            ways: Direction::ALL.map(|direction| chart.behind(number, direction)),
+            ways: Direction::ALL.map(|way| self.behind(&maze, number, way)),
         });
         let all = corners.chain(doorways);
         all.map(|place| (place.site, place)).collect()
+    }
+
+    /// Returns the configuration of a system with this mapper on a robot in the office.
+    #[must_use]
+    pub fn diktiometer(&self, robot: &SurveyorConfig, mapper: Config) -> DiktiometerConfig {
+        let mut routines = robot.routines(self.config.corridor_width);
+        routines.doorway_width = Some(self.config.doorway_width());
+        DiktiometerConfig::paper(routines, mapper)
+    }
+
+    /// Returns a random place from which a run may start, by its seed.
+    pub(super) fn random_place(&self, seed: u64) -> Option<TruePlace> {
+        let truth = self.places(&[]);
+        let number = stream(seed, 0).random_range(0..truth.len().max(1) as u32) as usize;
+        truth.into_values().nth(number)
+    }
+
+    /// Returns the place of `truth` at a position.
+    ///
+    /// # Errors
+    /// [`RunError::OffPlace`] if none is near.
+    pub(super) fn place_at(&self, truth: &Places, at: Point) -> Result<TruePlace, RunError> {
+        let places = truth.values();
+        let distances = places.map(|place| ((place.position - at).norm(), place));
+        match distances.min_by(|a, b| a.0.total_cmp(&b.0)) {
+            Some((distance, place)) if distance < 0.5 * self.separation() => Ok(*place),
+            _ => Err(RunError::OffPlace { at }),
+        }
+    }
+
+    /// Returns the names of the two leaves of a doorway's door.
+    pub(super) fn leaves(number: usize) -> [String; 2] {
+        ["a", "b"].map(|leaf| format!("{number} {leaf}"))
     }
 
     fn site(&self, cell: Cell) -> u32 {
@@ -306,16 +341,52 @@ impl Office {
         u32::from(grid.width()) * u32::from(grid.height()) + number as u32
     }
 
-    /// Returns the passage between two cells as doorways are named: from its south or west cell.
-    fn passage(&self, cell: Cell, direction: Direction) -> Option<(Cell, Direction)> {
-        match direction {
-            Direction::North | Direction::East => Some((cell, direction)),
+    /// Returns the number of the doorway in a direction from a cell. Doorways are named from their
+    /// south or west cell.
+    fn doorway_at(&self, cell: Cell, direction: Direction) -> Option<usize> {
+        let passage = match direction {
+            Direction::North | Direction::East => (cell, direction),
             Direction::South | Direction::West => {
                 let neighbour = self.course.maze.grid().neighbour(cell, direction)?;
-                Some((neighbour, direction.opposite()))
+                (neighbour, direction.opposite())
+            }
+        };
+        self.doorways.iter().position(|doorway| *doorway == passage)
+    }
+
+    /// Returns the site of the next place after a cell in one direction of a maze without the
+    /// passages that are shut.
+    fn onward(&self, maze: &Maze, mut cell: Cell, way: Direction) -> Option<u32> {
+        while maze.is_open(cell, way) {
+            if let Some(number) = self.doorway_at(cell, way) {
+                return Some(self.site_of_doorway(number));
+            }
+            cell = maze.grid().neighbour(cell, way)?;
+            if is_corner(maze, cell) {
+                return Some(self.site(cell));
             }
         }
+        None
     }
+
+    /// Returns the site of the next place after a doorway in one direction.
+    fn behind(&self, maze: &Maze, number: usize, way: Direction) -> Option<u32> {
+        let (cell, along) = self.doorways[number];
+        let beyond = match way {
+            _ if way == along => maze.grid().neighbour(cell, along)?,
+            _ if way == along.opposite() => cell,
+            _ => return None,
+        };
+        if is_corner(maze, beyond) {
+            return Some(self.site(beyond));
+        }
+        self.onward(maze, beyond, way)
+    }
+}
+
+/// Returns whether a cell is a place: its corridor does not just lead straight on.
+fn is_corner(maze: &Maze, cell: Cell) -> bool {
+    maze.degree(cell) > 0 && !is_straight(maze, cell)
 }
 
 /// Returns corridors between blocks: a square grid with a random share of the inner walls, except
@@ -375,66 +446,6 @@ pub(super) fn least_distance(places: &Places) -> Option<f64> {
     distances.reduce(f64::min)
 }
 
-/// An office with some doorways shut.
-struct Chart<'a> {
-    office: &'a Office,
-    shut: &'a [usize],
-}
-
-impl Chart<'_> {
-    fn doorway(&self, cell: Cell, direction: Direction) -> Option<usize> {
-        let wanted = self.office.passage(cell, direction)?;
-        self.office.numbers.get(&wanted).copied()
-    }
-
-    fn is_open(&self, cell: Cell, direction: Direction) -> bool {
-        self.office.course.maze.is_open(cell, direction) && !self.is_shut(cell, direction)
-    }
-
-    fn is_shut(&self, cell: Cell, direction: Direction) -> bool {
-        if self.shut.is_empty() {
-            return false;
-        }
-        let doorway = self.doorway(cell, direction);
-        doorway.is_some_and(|number| self.shut.contains(&number))
-    }
-
-    /// Returns whether a cell is a place: its corridor does not just lead straight on.
-    fn is_corner(&self, cell: Cell) -> bool {
-        let ways = Direction::ALL.map(|direction| self.is_open(cell, direction));
-        let straight = [[true, false, true, false], [false, true, false, true]];
-        !straight.contains(&ways) && ways.contains(&true)
-    }
-
-    /// Returns the site of the next place after a cell in one direction.
-    fn onward(&self, mut cell: Cell, direction: Direction) -> Option<u32> {
-        while self.is_open(cell, direction) {
-            if let Some(number) = self.doorway(cell, direction) {
-                return Some(self.office.site_of_doorway(number));
-            }
-            cell = self.office.course.maze.grid().neighbour(cell, direction)?;
-            if self.is_corner(cell) {
-                return Some(self.office.site(cell));
-            }
-        }
-        None
-    }
-
-    /// Returns the site of the next place after a doorway in one direction.
-    fn behind(&self, number: usize, direction: Direction) -> Option<u32> {
-        let (cell, along) = self.office.doorways[number];
-        let beyond = match direction {
-            _ if direction == along => self.office.course.maze.grid().neighbour(cell, along)?,
-            _ if direction == along.opposite() => cell,
-            _ => return None,
-        };
-        if self.is_corner(beyond) {
-            return Some(self.office.site(beyond));
-        }
-        self.onward(beyond, direction)
-    }
-}
-
 /// Positions of an office's parts.
 impl OfficeConfig {
     /// Returns the middle of a cell.
@@ -485,12 +496,13 @@ impl OfficeConfig {
 
     /// Returns the two leaves of a doorway's door, one at each face of the wall. A shut door looks
     /// like a wall from both sides.
-    fn leaves(&self, number: usize, cell: Cell, direction: Direction) -> [Door; 2] {
+    fn doors(&self, number: usize, cell: Cell, direction: Direction) -> [Door; 2] {
         let across = unit_of(direction.left()) * (0.5 * self.corridor_width);
         let depth = unit_of(direction) * (0.5 * self.wall_thickness);
         let centre = self.between(cell, direction);
-        [("a", centre - depth), ("b", centre + depth)].map(|(leaf, at)| Door {
-            name: format!("{number} {leaf}"),
+        let [a, b] = Office::leaves(number);
+        [(a, centre - depth), (b, centre + depth)].map(|(name, at)| Door {
+            name,
             start: at - across,
             end: at + across,
             material: Material::default(),

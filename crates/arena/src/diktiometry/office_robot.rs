@@ -1,29 +1,11 @@
-use tolman_geom::{Heading, Point, Pose};
+use tolman_geom::Pose;
 use tolman_sim::robots::CameraPioneer;
-use tolman_sim::{DoorError, DoorState};
-use tolman_systems::diktiometry::Surveyor;
 
-use super::{Office, PlaceCue, RunError, SurveyorConfig};
+use super::{Office, RunError, SurveyorConfig};
 use crate::Simulated;
 
 /// A simulated Pioneer with a camera.
 pub type OfficeRobot = Simulated<CameraPioneer>;
-
-/// An [`OfficeRobot`] with its control routines.
-pub type OfficeSurveyor = Surveyor<OfficeRobot, PlaceCue>;
-
-/// Opens or shuts both leaves of doorway `number` where `robot` is.
-///
-/// # Errors
-/// If there is no doorway of that number.
-pub(super) fn set_doorway(
-    robot: &mut OfficeRobot,
-    number: usize,
-    state: DoorState,
-) -> Result<(), DoorError> {
-    let mut leaves = ["a", "b"].into_iter();
-    leaves.try_for_each(|leaf| robot.set_door(&format!("{number} {leaf}"), state))
-}
 
 /// Returns a robot at `pose` in `office`. `seed` seeds all noise.
 ///
@@ -39,31 +21,16 @@ pub fn office_robot(
     Ok(office.course.robot_at(pose, robot, seed)?)
 }
 
-/// Returns a robot with its routines at `at`, m, in `office`, facing north. `seed` seeds all noise.
-///
-/// # Errors
-/// [`RunError`] if the configuration is out of its bounds or the robot cannot stand there.
-pub fn surveyor(
-    office: &Office,
-    config: &SurveyorConfig,
-    at: Point,
-    seed: u64,
-) -> Result<OfficeSurveyor, RunError> {
-    let furniture = office.config();
-    let mut routines = config.routines(furniture.corridor_width);
-    routines.doorway_width = Some(furniture.doorway_width());
-    let robot = office_robot(office, config, Pose::new(at, Heading::NORTH), seed)?;
-    Ok(Surveyor::new(robot, config.sight, routines)?)
-}
-
 #[cfg(test)]
 mod tests {
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
+    use tolman_geom::{Heading, Point};
     use tolman_maps::diktiometry::{MoveOutcome, Signature};
     use tolman_maze::Direction;
+    use tolman_sim::DoorState;
     use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld, MoveNoise};
-    use tolman_systems::diktiometry::{Arrival, Rover};
+    use tolman_systems::diktiometry::{Arrival, Rover, Surveyor};
 
     use super::super::office::{OfficeConfig, TruePlace, blocks};
     use super::*;
@@ -92,10 +59,15 @@ mod tests {
         let places = office.places(shut);
         let mut at = *places.first_key_value().unwrap().0;
         let config = SurveyorConfig::paper();
-        let mut rover = surveyor(office, &config, places[&at].position, seed).unwrap();
-        for number in shut {
-            set_doorway(rover.robot_mut(), *number, DoorState::Shut).unwrap();
+        let pose = Pose::new(places[&at].position, Heading::NORTH);
+        let mut robot = office_robot(office, &config, pose, seed).unwrap();
+        for leaf in shut.iter().flat_map(|number| Office::leaves(*number)) {
+            robot.set_door(&leaf, DoorState::Shut).unwrap();
         }
+        let routines = office
+            .diktiometer(&config, super::super::mapper(office, &config))
+            .routines;
+        let mut rover = Surveyor::new(robot, config.sight, routines).unwrap();
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         for _ in 0..moves {
             let direction = Direction::ALL[rng.random_range(0_u32..4) as usize];

@@ -3,8 +3,9 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 use core::cmp::Reverse;
 
-use tolman_maps::diktiometry::{PathGraph, PlaceId};
+use tolman_maps::diktiometry::{Observer, PathGraph, PlaceId};
 use tolman_maze::Direction;
+use tolman_systems::diktiometry::Diktiometer;
 
 use super::{Places, leads};
 
@@ -15,6 +16,15 @@ pub struct Visit {
     pub site: u32,
     /// Place on the map, by its id at that time.
     pub place: PlaceId,
+}
+
+impl Visit {
+    /// Returns the visits of a system that was at these sites, from its first place on.
+    pub(super) fn all<E>(system: &Diktiometer<E>, sites: &[u32]) -> Vec<Self> {
+        let visited = system.visited().iter().zip(sites);
+        let visits = visited.filter_map(|(place, site)| Some((*site, (*place)?)));
+        visits.map(|(site, place)| Self { site, place }).collect()
+    }
 }
 
 /// Quality of a map. Every share is from 0 to 1, and 1 of an empty whole.
@@ -46,16 +56,18 @@ pub struct MapScore {
 /// A true way: a site and a direction.
 type Way = (u32, Direction);
 
-/// Scores a map. `visits` are all places the robot was at, from the first on; `gone` are the ways
+/// Scores a map; `None` is an empty one. `visits` are all places the robot was at, from the first on; `gone` are the ways
 /// it took; `truth` are the places now. Action n of the map is direction n of [`Direction::ALL`].
 /// O(visits · log places + links · log links).
 #[must_use]
 pub fn score(
-    map: &PathGraph,
+    map: Option<&Observer>,
     visits: &[Visit],
     gone: &[(u32, Direction)],
     truth: &Places,
 ) -> MapScore {
+    let nothing = PathGraph::default();
+    let map = map.map_or(&nothing, |observer| &observer.map().paths);
     // How often each place on the map was each true place.
     let mut taken: BTreeMap<PlaceId, BTreeMap<u32, usize>> = BTreeMap::new();
     for visit in visits {

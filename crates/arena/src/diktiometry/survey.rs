@@ -1,27 +1,27 @@
-//! Runs one survey: a robot walks an office, its observer maps it, and the truth is kept beside.
+//! Runs of a diktiometer in an office, with the truth beside.
 
 use alloc::sync::Arc;
 
-use rand::RngExt;
+use rand::{Rng, RngExt};
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
-use tolman_geom::{Point, PointBox, Vector};
-use tolman_maps::diktiometry::{
-    Apart, Config, MoveOutcome, Observer, PlaceId, StepReport, WorldKind,
-};
+use tolman_geom::{Heading, Point, Pose};
+use tolman_maps::diktiometry::{Apart, Config, MoveOutcome, Observer, PlaceId, WorldKind};
 use tolman_maze::Direction;
+use tolman_robot::{Standing, Task};
 use tolman_sim::robots::CameraPioneerError;
-use tolman_sim::{Bounds, DoorError, DoorState, PlaceError, StepError};
+use tolman_sim::{DoorState, PlaceError};
 use tolman_systems::diktiometry::{
-    Arrival, MapError, MappedMove, PlannedMove, Planner, RoutineConfigError, RoutineError,
-    RoverMap, aligned_signatures, exit_signatures,
-};
-
-use super::{
-    MapScore, Memory, MoveError, Office, OfficeRobot, OfficeSurveyor, PlaceCue, Places,
-    SurveyorConfig, Visit, leads, office_robot::set_doorway, score, surveyor,
+    Diktiometer, ExploreUntil, MappedMove, aligned_signatures, exit_signatures,
 };
 use tolman_systems::stream;
+
+use super::{
+    MapScore, Memory, MoveError, Office, OfficeRobot, PlaceCue, Places, SurveyorConfig, Visit,
+    leads, office_robot, score,
+};
+use crate::run::{InRun, until_done};
+use crate::{BoxError, Outing, Sent};
 
 /// All settings of a run except the office and the seed.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
@@ -87,48 +87,22 @@ pub fn mapper(office: &Office, robot: &SurveyorConfig) -> Config {
     config
 }
 
-/// Truth of a run so far.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Past {
-    /// True start of the robot, m.
-    pub start: Point,
-    /// True position of the robot, m.
-    pub at: Point,
-    /// True places where the robot was, each with the map's place at the time, from the start on.
-    pub visits: Vec<Visit>,
-    /// True ways that the robot went: each by its site and direction.
-    pub gone: Vec<(u32, Direction)>,
-}
-
-/// A run under way, or ended.
+/// A diktiometer that explores an office, with the truth of all its moves.
 #[derive(Debug)]
 pub struct Survey {
+    outing: Sent<OfficeRobot, Diktiometer<PlaceCue>>,
     office: Arc<Office>,
     config: SurveyConfig,
-    rover: OfficeSurveyor,
-    mapping: RoverMap,
-    planner: Planner,
-    walk: ChaCha8Rng,
     doors: ChaCha8Rng,
-    plans: ChaCha8Rng,
     shut: Vec<usize>,
     /// True places and ways now.
     truth: Places,
-    site: u32,
-    past: Past,
+    /// Sites where the robot was, from the start on.
+    sites: Vec<u32>,
+    /// True ways that the robot went: each by its site and direction.
+    gone: Vec<(u32, Direction)>,
     errors: Vec<MoveError>,
     memory: Memory,
-}
-
-/// A place of a learned map where it is drawn over the world.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PlaceMark {
-    /// Id of the place on the map.
-    pub id: u32,
-    /// Box that holds the place for certain, as seen from the start, m.
-    pub bounds: Bounds,
-    /// Label in words.
-    pub label: String,
 }
 
 /// Result of a plan to a place of the map.
@@ -147,43 +121,23 @@ pub enum PlanTrial {
     },
 }
 
-/// Result of one move.
-#[derive(Debug)]
-pub struct SurveyedMove {
-    /// Decision of the planner.
-    pub decision: PlannedMove,
-    /// Measurements of the robot.
-    pub arrival: Arrival,
-    /// The observer's report.
-    pub report: StepReport,
-}
-
 /// Reason why a run cannot go on.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum RunError {
-    /// The configuration is out of its bounds.
-    #[error(transparent)]
-    Config(#[from] RoutineConfigError),
     /// The robot cannot be built.
     #[error("the robot cannot be built; correct its configuration")]
     Robot(#[from] CameraPioneerError),
     /// The robot cannot stand where it is put.
     #[error("the robot cannot stand there; choose another start")]
     Place(#[from] PlaceError),
-    /// The world has no such door.
-    #[error("the door cannot be moved; name a door of the world")]
-    Door(#[from] DoorError),
-    /// Robot or observer cannot begin.
-    #[error(transparent)]
-    Map(#[from] MapError<RoutineError<StepError>>),
-    /// Robot or observer cannot go on.
+    /// The system cannot go on.
     #[error("the survey broke off at ({}, {}) m", at.x, at.y)]
     BrokeOff {
         /// Position of the robot.
         at: Point,
         /// Reason why the robot or the observer cannot continue.
-        source: MapError<RoutineError<StepError>>,
+        source: BoxError,
     },
     /// The robot is at no place.
     #[error("the robot is at ({}, {}) m, which is not a place; lower the noise", at.x, at.y)]
@@ -200,130 +154,80 @@ pub enum RunError {
 }
 
 impl Survey {
-    /// Returns a robot at a random place of an office, with a map of that place alone.
+    /// Sends a diktiometer without a map from a random place of an office through all its moves, at
+    /// least one. `watch` sees the run after each.
     ///
     /// # Errors
-    /// [`RunError`] if robot or observer cannot be made.
-    pub fn new(office: &Arc<Office>, config: SurveyConfig, seed: u64) -> Result<Self, RunError> {
-        let truth = office.places(&[]);
-        let first = stream(seed, 0).random_range(0..truth.len().max(1) as u32) as usize;
-        let start = truth.values().nth(first).copied();
-        let start = start.ok_or(RunError::NoWay {
+    /// [`RunError`] if the robot cannot be made or go on, and the error of `watch`.
+    pub fn run(
+        office: &Arc<Office>,
+        config: SurveyConfig,
+        seed: u64,
+        mut watch: impl FnMut(&Self, &MappedMove) -> Result<(), BoxError>,
+    ) -> Result<Self, BoxError> {
+        let start = office.random_place(seed).ok_or(RunError::NoWay {
             at: Point::origin(),
         })?;
-        let mut rover = surveyor(office, &config.robot, start.position, seed)?;
-        let mapping = RoverMap::begin(&mut rover, config.mapper.clone())?;
-        let past = Past {
-            start: start.position,
-            at: start.position,
-            visits: vec![Visit {
-                site: start.site,
-                place: mapping.observer().place(),
-            }],
-            gone: Vec::new(),
-        };
-        Self::after(past, office, config, rover, mapping, seed)
-    }
-
-    /// Returns a run that continues where another ended. `seed` seeds all random numbers from now
-    /// on; doorways are open.
-    ///
-    /// # Errors
-    /// [`RunError`] if the robot cannot stand where the other ended, or no place is there.
-    pub fn resumed(
-        office: &Arc<Office>,
-        config: SurveyConfig,
-        past: Past,
-        observer: Observer,
-        seed: u64,
-    ) -> Result<Self, RunError> {
-        let mut rover = surveyor(office, &config.robot, past.at, seed)?;
-        let mapping = RoverMap::resume(&mut rover, observer)?;
-        Self::after(past, office, config, rover, mapping, seed)
-    }
-
-    /// Returns the run that continues from the truth `past`.
-    fn after(
-        past: Past,
-        office: &Arc<Office>,
-        config: SurveyConfig,
-        rover: OfficeSurveyor,
-        mapping: RoverMap,
-        seed: u64,
-    ) -> Result<Self, RunError> {
+        let mut paper = office.diktiometer(&config.robot, config.mapper.clone());
+        (paper.heed, paper.until) = (config.heed, ExploreUntil::Never);
+        let system = Diktiometer::new(paper, config.robot.sight, seed);
+        let pose = Pose::new(start.position, Heading::NORTH);
+        let robot = office_robot(office, &config.robot, pose, seed)?;
         let mut survey = Self {
+            outing: Sent::new(office.course.clone(), robot, u32::MAX, system),
             office: Arc::clone(office),
-            planner: Planner::new(config.heed),
-            rover,
-            mapping,
-            walk: stream(seed, 1),
             doors: stream(seed, 2),
-            plans: stream(seed, 3),
             shut: Vec::new(),
             truth: office.places(&[]),
-            site: 0,
-            past,
+            sites: vec![start.site],
+            gone: Vec::new(),
             errors: Vec::new(),
             memory: Memory::default(),
             config,
         };
-        survey.site = survey.true_site(survey.past.at)?;
-        survey.memory.see(survey.site, survey.mapping.exits());
+        survey.memory.see(&start);
+        until_done(&mut survey, |survey| {
+            survey.step()?;
+            if let Some(moved) = survey.outing.system().last_move() {
+                watch(survey, moved)?;
+            }
+            Ok::<_, BoxError>(match survey.moves() < survey.config.moves {
+                true => Standing::UnderWay,
+                false => Standing::Done,
+            })
+        })?;
         Ok(survey)
     }
 
-    /// Makes all moves.
-    ///
-    /// # Errors
-    /// [`RunError`] if robot or observer cannot go on.
-    pub fn finish(mut self) -> Result<Self, RunError> {
-        for _ in 0..self.config.moves {
-            self.step()?;
-        }
-        Ok(self)
-    }
-
     /// Makes one move.
-    ///
-    /// # Errors
-    /// [`RunError`] if robot or observer cannot go on.
-    pub fn step(&mut self) -> Result<SurveyedMove, RunError> {
-        self.move_a_door()?;
-        let (observer, exits) = (self.mapping.observer(), self.mapping.exits());
-        let decision = self.planner.choose(observer, exits, &mut self.walk);
+    fn step(&mut self) -> Result<(), RunError> {
+        let (before, from) = (self.position(), self.site());
+        let acted = match self.move_a_door() {
+            Ok(()) => self.outing.act(Task::Explore),
+            Err(error) => Err(error),
+        };
         let at = self.position();
-        self.go(decision.ok_or(RunError::NoWay { at })?)
-    }
-
-    fn go(&mut self, decision: PlannedMove) -> Result<SurveyedMove, RunError> {
-        let before = self.position();
-        let gone = self.mapping.go(&mut self.rover, decision.direction);
-        let here = self.position();
-        let MappedMove { arrival, report } =
-            gone.map_err(|source| RunError::BrokeOff { at: here, source })?;
-        let from = self.site;
-        self.site = self.true_site(here)?;
-        if arrival.outcome == MoveOutcome::Arrived {
-            let way = (here - before).norm();
-            self.memory.go(from, decision.direction, self.site, way);
-            self.past.gone.push((from, decision.direction));
-            let error = MoveError::of(&report, arrival.moved, here - before);
+        let standing = acted.map_err(|source| RunError::BrokeOff { at, source })?;
+        let (Standing::UnderWay, Some(moved)) = (standing, self.outing.system().last_move()) else {
+            return Err(RunError::NoWay { at });
+        };
+        let here = self.office.place_at(&self.truth, at)?;
+        if moved.arrival.outcome == MoveOutcome::Arrived {
+            let truly = at - before;
+            let way = truly.norm();
+            self.memory.go(from, moved.direction, here.site, way);
+            self.gone.push((from, moved.direction));
+            let error = MoveError::of(&moved.report, moved.arrival.moved, truly);
             self.errors.push(error);
         }
-        self.memory.see(self.site, self.mapping.exits());
-        let place = self.observer().place();
-        let site = self.site;
-        self.past.visits.push(Visit { site, place });
-        Ok(SurveyedMove {
-            decision,
-            arrival,
-            report,
-        })
+        self.memory.see(&here);
+        self.sites.push(here.site);
+        Ok(())
     }
 
     /// Shuts or opens a doorway if one is due, but none near the robot.
-    fn move_a_door(&mut self) -> Result<(), RunError> {
-        let (moves, period) = (self.past.gone.len(), self.config.door_period as usize);
+    fn move_a_door(&mut self) -> Result<(), BoxError> {
+        let (moves, period) = (self.gone.len(), self.config.door_period as usize);
         let doorways = self.office.doorways();
         if moves == 0 || doorways == 0 || !moves.is_multiple_of(period) {
             return Ok(());
@@ -332,30 +236,26 @@ impl Survey {
         if (self.office.doorway(number) - self.position()).norm() < 3.0 {
             return Ok(());
         }
-        let robot = self.rover.robot_mut();
-        if let Some(at) = self.shut.iter().position(|shut| *shut == number) {
-            set_doorway(robot, number, DoorState::Open)?;
-            self.shut.remove(at);
-        } else {
-            set_doorway(robot, number, DoorState::Shut)?;
-            self.shut.push(number);
+        let state = match self.shut.iter().position(|shut| *shut == number) {
+            Some(at) => {
+                self.shut.remove(at);
+                DoorState::Open
+            }
+            None => {
+                self.shut.push(number);
+                DoorState::Shut
+            }
+        };
+        for leaf in Office::leaves(number) {
+            self.outing.set_door(&leaf, state)?;
         }
         self.truth = self.office.places(&self.shut);
         Ok(())
     }
 
     fn position(&self) -> Point {
-        self.robot().truth().pose.position
-    }
-
-    /// Returns the site of the robot's true place.
-    fn true_site(&self, here: Point) -> Result<u32, RunError> {
-        let places = self.truth.values();
-        let distances = places.map(|place| ((place.position - here).norm(), place.site));
-        match distances.min_by(|a, b| a.0.total_cmp(&b.0)) {
-            Some((distance, site)) if distance < 0.5 * self.office.separation() => Ok(site),
-            _ => Err(RunError::OffPlace { at: here }),
-        }
+        let last = self.path().last();
+        last.map_or_else(Point::origin, |pose| pose.position)
     }
 
     /// Returns the office of the survey.
@@ -364,43 +264,38 @@ impl Survey {
         &self.office
     }
 
-    /// Returns the settings of the survey.
+    /// Returns the true pose of the robot after every time step.
     #[must_use]
-    pub const fn config(&self) -> &SurveyConfig {
-        &self.config
-    }
-
-    /// Returns the truth so far.
-    #[must_use]
-    pub fn past(&self) -> Past {
-        Past {
-            at: self.position(),
-            ..self.past.clone()
-        }
+    pub fn path(&self) -> &[Pose] {
+        self.outing.path()
     }
 
     /// Returns the observer with its map.
     #[must_use]
-    pub const fn observer(&self) -> &Observer {
-        self.mapping.observer()
+    pub fn observer(&self) -> Option<&Observer> {
+        self.outing.system().observer()
     }
 
-    /// Returns the robot.
+    /// Returns the number of moves so far.
     #[must_use]
-    pub const fn robot(&self) -> &OfficeRobot {
-        self.rover.robot()
+    pub fn moves(&self) -> u32 {
+        self.sites.len() as u32 - 1
     }
 
-    /// Returns the doorways that are shut now.
+    /// Returns the true places where the robot was, from the start on, by their sites.
     #[must_use]
-    pub fn shut(&self) -> &[usize] {
-        &self.shut
+    pub fn sites(&self) -> &[u32] {
+        &self.sites
+    }
+
+    /// Returns the true place where the robot is, by its site.
+    fn site(&self) -> u32 {
+        self.sites[self.sites.len() - 1]
     }
 
     /// Returns the true places of the robot with those of the map, from the start on.
-    #[must_use]
-    pub fn visits(&self) -> &[Visit] {
-        &self.past.visits
+    fn visits(&self) -> Vec<Visit> {
+        Visit::all(self.outing.system(), &self.sites)
     }
 
     /// Returns the errors of all moves so far.
@@ -412,15 +307,16 @@ impl Survey {
     /// Returns whether a plan from here to a random place of the map would lead there. Its actions
     /// are followed on the true ways, without moving the robot. A place without a plan counts as
     /// not reached. `None` if the map has no other place, or the robot was never at the drawn one.
-    pub fn try_plan(&mut self) -> Option<PlanTrial> {
-        let paths = &self.mapping.observer().map().paths;
-        let here = self.observer().place();
+    pub fn try_plan(&self, rng: &mut impl Rng) -> Option<PlanTrial> {
+        let observer = self.observer()?;
+        let paths = &observer.map().paths;
+        let here = observer.place();
         let others = paths.places().map(|(id, _)| id);
         let others: Vec<PlaceId> = others.filter(|id| *id != here).collect();
         if others.is_empty() {
             return None;
         }
-        let to = others[self.plans.random_range(0..others.len() as u32) as usize];
+        let to = others[rng.random_range(0..others.len() as u32) as usize];
         let is_to = |visit: &&Visit| paths.resolve(visit.place) == Some(to);
         let wanted = self.visits().iter().rev().find(is_to)?.site;
         if !self.truth.contains_key(&wanted) {
@@ -428,15 +324,15 @@ impl Survey {
         }
         let end = |plan: Vec<Direction>| {
             let mut directions = plan.into_iter();
-            directions.try_fold(self.site, |site, way| leads(&self.truth, (site, way)))
+            directions.try_fold(self.site(), |site, way| leads(&self.truth, (site, way)))
         };
-        let plan = self.observer().plan(here, to);
+        let plan = observer.plan(here, to);
         let plan = plan.and_then(|plan| {
             let steps = plan.iter();
             let directions = steps.map(|step| Direction::ALL.get(step.action.0 as usize).copied());
             directions.collect()
         });
-        let remembered = self.memory.plan(self.site, wanted);
+        let remembered = self.memory.plan(self.site(), wanted);
         Some(PlanTrial::There {
             works: plan.and_then(end) == Some(wanted),
             remembered_works: remembered.and_then(end) == Some(wanted),
@@ -444,49 +340,26 @@ impl Survey {
     }
 
     /// Returns the share of remembered ways that still lead where they did when the robot last saw
-    /// them. It is the baseline for a map of this run: a memory that guesses no changes. A resumed
-    /// run remembers only what it saw since it was resumed, because [`Past`] does not hold earlier
-    /// ways.
+    /// them. It is the baseline for a map of this run: a memory that guesses no changes.
     #[must_use]
     pub fn remembered_precision(&self) -> f64 {
         self.memory.precision(&self.truth)
     }
 
-    /// Returns the places of the map, moved so that the first lies where the run truly began.
-    #[must_use]
-    pub fn drawn(&self) -> Vec<PlaceMark> {
-        let map = self.observer().map();
-        let Some(home) = self.visits().first().map(|visit| visit.place) else {
-            return Vec::new();
-        };
-        let places = map.layout(home).into_iter().map(|drawn| {
-            let PointBox { x, y } = drawn.bounds;
-            let corner = |x: f64, y: f64| self.past.start + Vector::new(x, y);
-            let visits = map.paths.place(drawn.place).map_or(0, |place| place.visits);
-            PlaceMark {
-                id: drawn.place.0,
-                bounds: Bounds {
-                    min: corner(x.low(), y.low()),
-                    max: corner(x.high(), y.high()),
-                },
-                label: format!("place {}, {visits} visits", drawn.place.0),
-            }
-        });
-        places.collect()
-    }
-
-    /// Returns the links of the map, by the ids of the places at their ends.
-    #[must_use]
-    pub fn links(&self) -> Vec<(u32, u32)> {
-        let links = self.observer().map().paths.links();
-        links.map(|(_, link)| (link.from.0, link.to.0)).collect()
-    }
-
     /// Returns the score of the map as it is now.
     #[must_use]
     pub fn score(&self) -> MapScore {
-        let paths = &self.observer().map().paths;
-        score(paths, self.visits(), &self.past.gone, &self.truth)
+        score(self.observer(), &self.visits(), &self.gone, &self.truth)
+    }
+}
+
+impl InRun for Survey {
+    fn steps(&self) -> u32 {
+        self.outing.steps()
+    }
+
+    fn is_out_of_time(&self) -> bool {
+        self.outing.is_out_of_time()
     }
 }
 
@@ -507,6 +380,10 @@ mod tests {
         Arc::new(Office::new(&maze, &config).unwrap())
     }
 
+    fn run(office: &Arc<Office>, config: &SurveyConfig, seed: u64) -> Survey {
+        Survey::run(office, config.clone(), seed, |_, _| Ok(())).unwrap()
+    }
+
     #[test]
     fn what_is_certain_is_never_confused_where_all_places_look_alike() {
         let office = office(4, 0.0, 1);
@@ -515,13 +392,12 @@ mod tests {
             ..SurveyConfig::paper(&office, 150)
         };
         for seed in 0..3 {
-            let run = Survey::new(&office, config.clone(), seed).unwrap();
-            let run = run.finish().unwrap();
+            let run = run(&office, &config, seed);
             let score = run.score();
             assert!((score.purity - 1.0).abs() < 1e-12, "{score:?}");
             assert!((score.link_precision - 1.0).abs() < 1e-12, "{score:?}");
             assert!((score.gone_recall - 1.0).abs() < 1e-12, "{score:?}");
-            assert!(2 * score.places < run.visits().len(), "{score:?}");
+            assert!(2 * score.places < run.sites().len(), "{score:?}");
         }
     }
 
@@ -532,14 +408,12 @@ mod tests {
         let office = Arc::new(Office::new(&maze, &OfficeConfig::bare()).unwrap());
         let mut config = SurveyConfig::paper(&office, 700);
         config.heed = 0.3;
-        let run = Survey::new(&office, config.clone(), 1002).unwrap();
-        let score = run.finish().unwrap().score();
+        let score = run(&office, &config, 1002).score();
         assert!(score.is_isomorphic, "{score:?}");
         config.mapper.actions = Config::compass_actions();
         config.mapper.apart = Apart::Distance;
         config.mapper.world = WorldKind::Changing;
-        let run = Survey::new(&office, config, 1002).unwrap();
-        let score = run.finish().unwrap().score();
+        let score = run(&office, &config, 1002).score();
         assert!(score.places > 3 * score.visited, "{score:?}");
     }
 
@@ -552,8 +426,7 @@ mod tests {
         };
         let office = Arc::new(Office::new(&file.maze, &furniture).unwrap());
         let config = SurveyConfig::paper(&office, 30);
-        let run = Survey::new(&office, config, 1).unwrap().finish().unwrap();
-        let score = run.score();
+        let score = run(&office, &config, 1).score();
         assert_eq!((score.places, score.visited), (5, 5), "{score:?}");
     }
 
@@ -562,14 +435,8 @@ mod tests {
         let office = office(4, 0.5, 6);
         let mut config = SurveyConfig::paper(&office, 120);
         config.door_period = 10;
-        let run = |seed| {
-            Survey::new(&office, config.clone(), seed)
-                .unwrap()
-                .finish()
-                .unwrap()
-        };
-        let (one, again, other) = (run(1), run(1), run(2));
-        assert!(!one.shut().is_empty(), "some doorway is shut by now");
+        let [one, again, other] = [1, 1, 2].map(|seed| run(&office, &config, seed));
+        assert!(!one.shut.is_empty(), "some doorway is shut by now");
         assert_eq!(one.visits(), again.visits());
         assert_eq!(one.observer(), again.observer());
         assert_ne!(one.visits(), other.visits());

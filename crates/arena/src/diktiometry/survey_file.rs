@@ -2,32 +2,47 @@ use alloc::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
-use tolman_geom::Point;
-use tolman_maps::diktiometry::{MapFile, MapFileError, Observer, PlaceId};
+use tolman_geom::{Heading, Point, Pose};
+use tolman_maps::diktiometry::{MapFile, MapFileError, MoveOutcome, Observer, PlaceId, Use};
 use tolman_maze::{Cell, Direction, MazeError, MazeFile};
+use tolman_robot::Task;
+use tolman_systems::diktiometry::{Diktiometer, LandmarkSpot};
+use tolman_systems::{FileError, MapFiles, Origin, origin_of};
 
 use super::{
-    Office, OfficeConfig, OfficeError, Past, RunError, Survey, SurveyConfig, SurveyorConfig, Visit,
+    MapScore, Office, OfficeConfig, OfficeError, OfficeRobot, PlaceCue, RunError, SurveyorConfig,
+    Visit, office_robot, score,
 };
-use tolman_systems::diktiometry::LandmarkSpot;
-use tolman_systems::{FileError, MapFiles, Origin};
+use crate::{BoxError, Founding, Sent};
 
-const FILES: MapFiles = MapFiles {
-    system: "diktiometry-better",
-};
+/// Systems whose files hold surveys: as in the paper, and with merges by looks and turns.
+const SYSTEMS: [&str; 2] = ["diktiometry", "diktiometry-better"];
+
+/// A survey without its map: the world, the robot, and where it truly was so far.
+#[derive(Clone, Debug)]
+pub struct Surveyed {
+    /// World, robot and seed of the survey's beginning. A continuation has other seeds.
+    pub origin: Origin,
+    /// World that was surveyed.
+    pub office: Arc<Office>,
+    /// The robot and its noise.
+    pub robot: SurveyorConfig,
+    /// Exploration probability of the walk, 0 to 1.
+    pub heed: f64,
+    /// True start of the robot, m.
+    pub start: Point,
+    /// True position of the robot, m.
+    pub at: Point,
+    /// True places where the robot was, each with the map's place at the time, from the start on.
+    pub visits: Vec<Visit>,
+}
 
 /// Contents of a survey's file: JSON, read back bit for bit. It holds the world and the robot's
 /// place in it, so that the survey can continue; the map is the journal of all moves.
 #[derive(Clone, Debug)]
 pub struct SurveyFile {
-    /// World, robot and seed of the survey's beginning. A continuation has other seeds.
-    pub origin: Origin,
-    /// World that was surveyed.
-    pub office: Arc<Office>,
-    /// Settings of the robot and its walk. Its mapper is that of the map.
-    pub config: SurveyConfig,
-    /// Truth of the run so far, for continuing and for scoring.
-    pub past: Past,
+    /// World, robot and true places.
+    pub surveyed: Surveyed,
     /// Observer that holds the map.
     pub observer: Observer,
 }
@@ -70,27 +85,105 @@ struct Body {
     /// True site of every visit, and the place on the map where the robot believed it was, from the
     /// start on.
     visits: Vec<(u32, PlaceId)>,
-    /// True ways that the robot went: each by its site and direction.
-    gone: Vec<(u32, Direction)>,
     map: MapFile,
 }
 
-impl SurveyFile {
-    /// Returns the file of a survey of the maze `world` that began from `seed`.
-    #[must_use]
-    pub fn of(world: &str, seed: u64, survey: &Survey) -> Self {
-        let office = survey.office();
-        Self {
+impl Surveyed {
+    /// Returns a survey that begins at a random place of an office, by its seed.
+    ///
+    /// # Errors
+    /// [`RunError::NoWay`] if the office has no place.
+    pub fn begin(
+        world: &str,
+        office: Arc<Office>,
+        robot: SurveyorConfig,
+        heed: f64,
+        seed: u64,
+    ) -> Result<Self, RunError> {
+        let start = office.random_place(seed).ok_or(RunError::NoWay {
+            at: Point::origin(),
+        })?;
+        Ok(Self {
             origin: Origin {
                 world: world.to_owned(),
                 drawing: Some(office.course.drawing()),
-                robot: survey.config().robot.name().to_owned(),
+                robot: robot.name().to_owned(),
                 seed,
             },
-            office: Arc::clone(office),
-            config: survey.config().clone(),
-            past: survey.past(),
-            observer: survey.observer().clone(),
+            office,
+            robot,
+            heed,
+            start: start.position,
+            at: start.position,
+            visits: Vec::new(),
+        })
+    }
+
+    /// Sends out a system that goes on from here, for at most `step_limit` time steps. It keeps its
+    /// map as a file. `seed` seeds all noise.
+    ///
+    /// # Errors
+    /// [`RunError`] if the robot cannot be made or cannot stand here.
+    pub fn sent(
+        self,
+        system: Diktiometer<PlaceCue>,
+        step_limit: u32,
+        seed: u64,
+    ) -> Result<Sent<OfficeRobot, Diktiometer<PlaceCue>>, RunError> {
+        let pose = Pose::new(self.at, Heading::NORTH);
+        let robot = office_robot(&self.office, &self.robot, pose, seed)?;
+        let (course, name) = (self.office.course.clone(), self.robot.name());
+        let origin = Pose::new(self.start, Heading::EAST);
+        let sent = Sent::new(course, robot, step_limit, system);
+        let sent = sent.called(name).laid_at(origin);
+        let sent = sent.counting(|system| system.visited().len());
+        Ok(sent.keeping(move |system, founded| {
+            let file = self.after(system, founded)?;
+            let text = file.map(|file| file.to_json()).transpose();
+            Ok::<_, BoxError>(text?)
+        }))
+    }
+
+    /// Returns the survey after the moves of a system that went on from here, with its map; `None`
+    /// without one. `founded` has the true positions of its visits.
+    fn after(
+        &self,
+        system: &Diktiometer<PlaceCue>,
+        founded: &[Founding],
+    ) -> Result<Option<SurveyFile>, RunError> {
+        let Some(observer) = system.observer() else {
+            return Ok(None);
+        };
+        let truth = self.office.places(&[]);
+        let mut surveyed = self.clone();
+        let known = usize::from(!self.visits.is_empty());
+        let visits = system.visited().iter().zip(founded).enumerate();
+        for (number, (place, founding)) in visits.skip(known) {
+            // The first action begins at the first place and ends at the second.
+            let at = if number == 0 {
+                self.at
+            } else {
+                founding.position
+            };
+            let site = self.office.place_at(&truth, at)?.site;
+            let visit = place.map(|place| Visit { site, place });
+            surveyed.visits.extend(visit);
+            surveyed.at = at;
+        }
+        let observer = observer.clone();
+        Ok(Some(SurveyFile { surveyed, observer }))
+    }
+}
+
+impl SurveyFile {
+    /// Returns the name of the system that learned the map. Files of earlier versions name both
+    /// systems alike.
+    #[must_use]
+    pub fn system(&self) -> &'static str {
+        let [paper, better] = SYSTEMS;
+        match self.observer.config().restructuring.look_merge {
+            Use::On => better,
+            Use::Off => paper,
         }
     }
 
@@ -100,20 +193,23 @@ impl SurveyFile {
     /// [`SurveyFileError::Map`] if the mapper kept no journal, [`SurveyFileError::File`] if it
     /// cannot be written.
     pub fn to_json(&self) -> Result<String, SurveyFileError> {
-        let past = &self.past;
-        let visits = past.visits.iter().map(|visit| (visit.site, visit.place));
+        let surveyed = &self.surveyed;
+        let visits = surveyed
+            .visits
+            .iter()
+            .map(|visit| (visit.site, visit.place));
         let body = Body {
-            maze: self.office.course.maze.to_string(),
-            office: *self.office.config(),
-            surveyor: self.config.robot.clone(),
-            heed: self.config.heed,
-            start: past.start.into(),
-            at: past.at.into(),
+            maze: surveyed.office.course.maze.to_string(),
+            office: *surveyed.office.config(),
+            surveyor: surveyed.robot.clone(),
+            heed: surveyed.heed,
+            start: surveyed.start.into(),
+            at: surveyed.at.into(),
             visits: visits.collect(),
-            gone: past.gone.clone(),
             map: MapFile::of(&self.observer)?,
         };
-        Ok(FILES.write(&self.origin, &body)?)
+        let system = self.system();
+        Ok(MapFiles { system }.write(&surveyed.origin, &body)?)
     }
 
     /// Reads the text of a file.
@@ -121,7 +217,12 @@ impl SurveyFile {
     /// # Errors
     /// [`SurveyFileError`] with the place and the repair.
     pub fn from_json(text: &str) -> Result<Self, SurveyFileError> {
-        let (origin, body): (_, Body) = FILES.read(text)?;
+        let (found, _) = origin_of(text)?;
+        let mut systems = SYSTEMS.into_iter();
+        let system = systems
+            .find(|system| *system == found)
+            .unwrap_or(SYSTEMS[0]);
+        let (origin, body): (_, Body) = MapFiles { system }.read(text)?;
         if !(0.0..=1.0).contains(&body.heed) {
             return Err(SurveyFileError::Heed { found: body.heed });
         }
@@ -131,23 +232,54 @@ impl SurveyFile {
         let office = Office::new(&maze, &body.office)?;
         let visits = body.visits.into_iter();
         let visits = visits.map(|(site, place)| Visit { site, place });
-        Ok(Self {
+        let surveyed = Surveyed {
             office: Arc::new(office.named(&origin.world)),
-            config: SurveyConfig {
-                robot: body.surveyor,
-                mapper: observer.config().clone(),
-                heed: body.heed,
-                moves: 0,
-                door_period: 0,
-            },
+            robot: body.surveyor,
+            heed: body.heed,
             origin,
-            past: Past {
-                start: Point::from(body.start),
-                at: Point::from(body.at),
-                visits: visits.collect(),
-                gone: body.gone,
-            },
-            observer,
+            start: Point::from(body.start),
+            at: Point::from(body.at),
+            visits: visits.collect(),
+        };
+        Ok(Self { surveyed, observer })
+    }
+
+    /// Returns the score of the map.
+    #[must_use]
+    pub fn score(&self) -> MapScore {
+        let Surveyed { office, visits, .. } = &self.surveyed;
+        let moves = self.observer.journal().map_or(&[][..], |all| &all.moves);
+        let went = visits.iter().zip(moves);
+        let went = went.filter(|(_, made)| made.outcome == MoveOutcome::Arrived);
+        let gone = went.filter_map(|(from, made)| {
+            let direction = Direction::ALL.get(made.action.0 as usize)?;
+            Some((from.site, *direction))
+        });
+        let gone: Vec<(u32, Direction)> = gone.collect();
+        score(Some(&self.observer), visits, &gone, &office.places(&[]))
+    }
+
+    /// Returns why the map is wrong, by the truth, or, after exploration, unfinished; `None` if it
+    /// is right.
+    #[must_use]
+    pub fn complaint(&self, task: Task) -> Option<String> {
+        let MapScore {
+            places,
+            visited,
+            purity,
+            is_isomorphic,
+            ..
+        } = self.score();
+        let there_are = self.surveyed.office.places(&[]).len();
+        if !is_isomorphic {
+            return Some(format!(
+                "{places} places for the {visited} that were visited, purity {purity:.3}: places look too much alike; try walls of more colours, --set colours=8. `tolman map show` lists the places that may be one"
+            ));
+        }
+        (task == Task::Explore && visited < there_are).then(|| {
+            format!(
+                "{visited} of {there_are} places were visited: give it more moves, --set moves=2000"
+            )
         })
     }
 
@@ -156,16 +288,16 @@ impl SurveyFile {
     #[must_use]
     pub fn goal(&self) -> Option<LandmarkSpot> {
         let paths = &self.observer.map().paths;
-        let goals = self.office.course.maze.goals();
+        let goals = self.surveyed.office.course.maze.goals();
         let is_goal = |visit: &&Visit| {
             let cell = self.cell(visit);
             cell.is_some_and(|cell| goals.contains(&cell))
         };
-        let mut visits = self.past.visits.iter().rev();
+        let mut visits = self.surveyed.visits.iter().rev();
         if let Some(visit) = visits.find(is_goal) {
             return Some(LandmarkSpot::Place(paths.resolve(visit.place)?));
         }
-        let mut moves = self.past.visits.windows(2).rev();
+        let mut moves = self.surveyed.visits.windows(2).rev();
         let (from, way) = moves.find_map(|pair| {
             let [from, to] = pair else { return None };
             let (start, end) = (self.cell(from)?, self.cell(to)?);
@@ -178,7 +310,8 @@ impl SurveyFile {
 
     /// Returns the cell of a visited place; `None` for a doorway.
     fn cell(&self, visit: &Visit) -> Option<Cell> {
-        self.office
+        self.surveyed
+            .office
             .course
             .maze
             .grid()
@@ -189,22 +322,12 @@ impl SurveyFile {
     /// Returns whether a straight corridor from one cell to another goes over one of these between
     /// them.
     fn goes_over(&self, start: Cell, way: Direction, end: Cell, cells: &[Cell]) -> bool {
-        let maze = &self.office.course.maze;
+        let maze = &self.surveyed.office.course.maze;
         let step = |at: &Cell| maze.beside(*at, way).filter(|_| maze.is_open(*at, way));
         let beyond = core::iter::successors(step(&start), step);
         let between: Vec<Cell> = beyond.take_while(|at| *at != end).collect();
         let leads_there = between.last().unwrap_or(&start);
         step(leads_there) == Some(end) && between.iter().any(|at| cells.contains(at))
-    }
-
-    /// Returns the survey, ready to continue. `seed` seeds all random numbers from now on.
-    ///
-    /// # Errors
-    /// [`RunError`] if the robot cannot stand at the file's position.
-    pub fn survey(&self, seed: u64) -> Result<Survey, RunError> {
-        let past = self.past.clone();
-        let observer = self.observer.clone();
-        Survey::resumed(&self.office, self.config.clone(), past, observer, seed)
     }
 }
 
@@ -213,9 +336,12 @@ mod tests {
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
     use tolman_maps::diktiometry::JournalLength;
+    use tolman_systems::diktiometry::ExploreUntil;
 
-    use super::super::blocks;
+    use super::super::{blocks, mapper};
     use super::*;
+    use crate::Outing;
+    use crate::run::{TaskEnd, until_done};
 
     fn survey(moves: u32) -> SurveyFile {
         let maze = blocks(4, 0.3, &mut ChaCha8Rng::seed_from_u64(1));
@@ -225,10 +351,23 @@ mod tests {
             ..OfficeConfig::bare()
         };
         let office = Arc::new(Office::new(&maze, &furniture).unwrap());
-        let mut config = SurveyConfig::paper(&office, moves);
-        config.mapper.journal = JournalLength::All;
-        let survey = Survey::new(&office, config, 3).unwrap().finish().unwrap();
-        SurveyFile::of("blocks", 3, &survey)
+        let robot = SurveyorConfig::paper();
+        let mut mapper = mapper(&office, &robot);
+        mapper.journal = JournalLength::All;
+        let mut config = office.diktiometer(&robot, mapper);
+        config.until = ExploreUntil::Moves(moves);
+        let system = Diktiometer::new(config, robot.sight, 3);
+        learned(
+            Surveyed::begin("blocks", office, robot, 0.0, 3).unwrap(),
+            system,
+        )
+    }
+
+    fn learned(surveyed: Surveyed, system: Diktiometer<PlaceCue>) -> SurveyFile {
+        let mut outing = surveyed.sent(system, u32::MAX, 3).unwrap();
+        let ended = until_done(&mut outing, |outing| outing.act(Task::Explore)).unwrap();
+        assert_eq!(ended.end, TaskEnd::Done);
+        SurveyFile::from_json(&outing.map_file().unwrap().unwrap()).unwrap()
     }
 
     #[test]
@@ -237,16 +376,20 @@ mod tests {
         let text = written.to_json().unwrap();
         let read = SurveyFile::from_json(&text).unwrap();
         assert_eq!(read.observer, written.observer);
-        assert_eq!(read.past, written.past);
-        assert_eq!(read.origin, written.origin);
-        assert_eq!(read.origin.robot, "camera Pioneer");
+        assert_eq!(read.surveyed.visits, written.surveyed.visits);
+        assert_eq!(read.surveyed.origin.robot, "camera Pioneer");
+        assert_eq!(read.system(), "diktiometry");
         assert_eq!(read.to_json().unwrap(), text);
-        let mut on = read.survey(5).unwrap();
-        for _ in 0..20 {
-            on.step().unwrap();
-        }
-        assert_eq!(on.observer().moves(), 50);
-        assert_eq!(on.visits().len(), 51);
+        let SurveyFile { surveyed, observer } = read;
+        let robot = &surveyed.robot;
+        let mut config = surveyed
+            .office
+            .diktiometer(robot, observer.config().clone());
+        config.until = ExploreUntil::Moves(20);
+        let system = Diktiometer::with_map(config, robot.sight, observer, 5);
+        let on = learned(surveyed, system);
+        assert_eq!(on.observer.moves(), 50);
+        assert_eq!(on.surveyed.visits.len(), 51);
         let score = on.score();
         assert!((score.purity - 1.0).abs() < 1e-12, "{score:?}");
     }

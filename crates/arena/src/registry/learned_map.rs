@@ -78,6 +78,9 @@ impl MapText {
             let why = "it was learned in another world, or this one has been drawn again since";
             return Ok(Some(why.to_owned()));
         }
+        if let Some(judged) = map.judged_apart() {
+            return Ok(judged);
+        }
         let truth = self.truth.as_ref();
         let truth =
             truth.ok_or("the file does not say where the robot truly was: learn it again")?;
@@ -118,6 +121,12 @@ pub trait LearnedMap {
     /// If such maps cannot be checked.
     fn view(&self) -> Result<MapView, BoxError> {
         Err("such a map cannot be checked".into())
+    }
+
+    /// Returns the judgement of a map of a world whose true places are not cells: `Some(None)` if it
+    /// is right, or why not; `None` for all other maps.
+    fn judged_apart(&self) -> Option<Option<String>> {
+        None
     }
 
     /// Returns `terrain` as the course on which the map was learned, for a robot like the one that

@@ -256,7 +256,7 @@ fn percent(part: usize, whole: usize) -> Option<f64> {
 mod tests {
     use alloc::collections::BTreeSet;
 
-    use tolman_arena::contest::{LearnRecord, MapJudgement};
+    use tolman_arena::contest::{Evidence, LearnRecord, MapJudgement};
     use tolman_arena::run::TaskEnd;
 
     use super::*;
@@ -276,6 +276,7 @@ mod tests {
                 claim,
                 certainty: Some(certainty),
                 judgement,
+                evidence: Evidence::default(),
                 driven: 1.0,
                 steps: 1,
                 bumps: 0,

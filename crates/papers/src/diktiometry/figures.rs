@@ -5,7 +5,7 @@ use super::SurveyRun;
 use super::settings::{Setting, Subject, Trial};
 use crate::plan::mean_with_quartiles;
 use tolman_arena::diktiometry::{Survey, WINDOW};
-use tolman_arena::drawing::diktiometry::map_over_world;
+use tolman_arena::drawing::diktiometry::{map_over_world, place_marks};
 use tolman_draw::{Axis, Chart, Figure, Line, Series};
 use tolman_experiment::{BoxError, Record, Run};
 
@@ -68,9 +68,13 @@ fn slug(trial: &Trial) -> String {
 
 /// Returns the map of a run, drawn from the robot's true start.
 fn map(trial: &Trial, setting: &Setting, run: &Run, number: usize) -> Result<Figure, BoxError> {
-    let survey = Survey::new(&setting.office, setting.config.clone(), run.seed)?.finish()?;
+    let survey = Survey::run(&setting.office, setting.config.clone(), run.seed, |_, _| {
+        Ok(())
+    })?;
     let score = survey.score();
-    let drawing = map_over_world(&setting.office, &survey);
+    let observer = survey.observer().ok_or("no map is kept")?;
+    let marks = place_marks(observer, survey.path()[0].position);
+    let drawing = map_over_world(&setting.office.course.world, observer, &marks);
     Ok(Figure::new(
         format!("map-{}-{number}", slug(trial)),
         format!("{}: the map of run 0", setting.row),

@@ -155,11 +155,11 @@ impl PartsRow {
     pub(super) fn run(&self, seed: u64) -> Result<Fields, BoxError> {
         let (office, mut config) = self.fresh.draw(seed)?;
         config.door_period = self.door_period;
-        let mut survey = Survey::new(&office, config, seed)?;
         let mut run = PartsRun::default();
-        for _ in 0..self.fresh.moves {
-            run.count(&survey.step()?.report);
-        }
+        Survey::run(&office, config, seed, |_, moved| {
+            run.count(&moved.report);
+            Ok(())
+        })?;
         Ok(run.fields()?)
     }
 }

@@ -378,19 +378,17 @@ impl FreshRow {
     pub(super) fn run(&self, seed: u64) -> Result<Fields, BoxError> {
         let (office, mut config) = self.draw(seed)?;
         config.mapper.journal = JournalLength::All;
-        let mut survey = Survey::new(&office, config, seed)?;
-        let is_by_the_paper = survey.observer().config().matching.identity == Identity::Meets;
+        let is_by_the_paper = config.mapper.matching.identity == Identity::Meets;
         let mut listener = Listener::default();
         let mut standstill = Standstill::default();
         let ways: usize = office.places(&[]).values().map(TruePlace::way_count).sum();
-        for number in 1..=self.moves {
-            let from = survey.visits().last().map_or(0, |visit| visit.site);
-            let moved = survey.step()?;
-            standstill.note(&survey, from, moved.decision.direction, ways);
+        let survey = Survey::run(&office, config, seed, |survey, moved| {
+            standstill.note(survey, moved.direction, ways);
             if !is_by_the_paper {
-                listener.listen(number, &survey);
+                listener.listen(survey);
             }
-        }
+            Ok(())
+        })?;
         let score = survey.score();
         let places = office.places(&[]).len();
         let seen = share(score.visited, places).unwrap_or(1.0);
@@ -432,14 +430,15 @@ impl FreshRun {
     /// Returns the record with the numbers of proofs for the map's merges, and of false ones, after
     /// checking them.
     fn certified(self, survey: &Survey) -> Result<Self, BoxError> {
-        let config = survey.observer().config();
-        let journal = survey.observer().journal().ok_or("no journal is kept")?;
+        let observer = survey.observer().ok_or("no map is kept")?;
+        let config = observer.config();
+        let journal = observer.journal().ok_or("no journal is kept")?;
         let CertifiedMerges {
             certificates,
             unproven,
         } = certify_merges(config, journal)?;
         verify_merges(config, journal, &certificates)?;
-        let site = |visit: usize| survey.visits()[visit].site;
+        let site = |visit: usize| survey.sites()[visit];
         let mut run = Self {
             geometric_certificates: Some(0),
             false_geometric: Some(0),

@@ -20,6 +20,7 @@ use tolman_experiment::{
     Run, Settling, Table, Tour, record,
 };
 use tolman_replay::Replay;
+use tolman_systems::stream;
 
 pub use ablations::{ABLATIONS, Change};
 use firings::{PARTS, PartsRow};
@@ -40,6 +41,9 @@ pub(super) const ENTRY: Entry = Entry {
     }),
     open,
 };
+
+/// Stream of a run's seed from which plans are drawn.
+const PLAN_STREAM: u64 = 3;
 
 /// The prepared experiment.
 #[derive(Debug)]
@@ -207,16 +211,17 @@ impl Procedure for Diktiometry {
             return row_of(&self.parts, |row| row.fresh.row, job)?.run(job.seed);
         }
         let setting = self.setting(job)?;
-        let mut survey = Survey::new(&setting.office, setting.config.clone(), job.seed)?;
         let mut plans = Vec::new();
-        for number in 1..=setting.config.moves {
-            survey.step()?;
+        let mut rng = stream(job.seed, PLAN_STREAM);
+        let config = &setting.config;
+        let survey = Survey::run(&setting.office, config.clone(), job.seed, |survey, _| {
             // Plans are tried in the part of the walk where the asymptote is measured.
-            let late = f64::from(number) > (1.0 - TAIL) * f64::from(setting.config.moves);
-            if late && setting.subject == Subject::Map && number.is_multiple_of(5) {
-                plans.extend(survey.try_plan());
+            let late = f64::from(survey.moves()) > (1.0 - TAIL) * f64::from(config.moves);
+            if late && setting.subject == Subject::Map && survey.moves().is_multiple_of(5) {
+                plans.extend(survey.try_plan(&mut rng));
             }
-        }
+            Ok(())
+        })?;
         let summary = ErrorSummary::of(survey.errors()).ok_or("no move was made")?;
         if setting.subject == Subject::Odometry {
             let run = SurveyRun {

@@ -28,9 +28,10 @@ pub(super) struct Statement {
 }
 
 impl Listener {
-    /// Takes in the state after a move, by its number. Only a wrong map that was not objected to
-    /// is checked, because the check is slow on large maps.
-    pub(super) fn listen(&mut self, number: u32, survey: &Survey) {
+    /// Takes in the state after a move. Only a wrong map that was not objected to is checked,
+    /// because the check is slow on large maps.
+    pub(super) fn listen(&mut self, survey: &Survey) {
+        let number = survey.moves();
         if !number.is_multiple_of(ASKED) {
             return;
         }
@@ -71,7 +72,10 @@ impl Statement {
 }
 
 fn said(survey: &Survey) -> MapState {
-    survey.observer().self_check().state()
+    let observer = survey.observer();
+    observer.map_or(MapState::Unfinished, |observer| {
+        observer.self_check().state()
+    })
 }
 
 const fn is_objection(state: MapState) -> bool {

@@ -4,17 +4,17 @@ use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
 
 use tolman_geom::{Point, PointBox};
-use tolman_maps::diktiometry::{LinkId, LinkStatus, PlaceId};
+use tolman_maps::diktiometry::{LinkId, LinkStatus, Observer, PlaceId};
 use tolman_robot::Body;
 use tolman_sim::robots::LaserPioneerConfig;
 
-use tolman_arena::diktiometry::{Office, Survey, SurveyConfig, SurveyedMove};
+use tolman_arena::diktiometry::{Office, Survey, SurveyConfig};
 use tolman_experiment::{BoxError, Job};
 use tolman_replay::{
     Belief, BeliefAt, Fact, MapEdge, MapGrowth, MapNode, Notes, Replay, RobotTrack, Scenery, Shape,
     TimeSeries,
 };
-use tolman_systems::diktiometry::Reason;
+use tolman_systems::diktiometry::{MappedMove, Reason};
 
 /// Number of the simulator's time steps per step of the replay.
 const COARSE: usize = 12;
@@ -28,17 +28,18 @@ pub(super) fn of(
     config: &SurveyConfig,
     job: &Job<'_>,
 ) -> Result<Replay, BoxError> {
-    let mut survey = Survey::new(office, config.clone(), job.seed)?;
-    let mut watch = Watch::new(&survey);
-    for _ in 0..config.moves {
-        let surveyed = survey.step()?;
-        watch.see(&survey, &surveyed);
-    }
+    let mut watch = Watch::new();
+    let survey = Survey::run(office, config.clone(), job.seed, |survey, moved| {
+        if let Some(observer) = survey.observer() {
+            watch.see(survey, observer, moved);
+        }
+        Ok(())
+    })?;
     let robot = LaserPioneerConfig::noiseless();
     let body = Body::Circle {
         radius: robot.radius,
     };
-    let path = survey.robot().path().iter();
+    let path = survey.path().iter();
     let poses = path.step_by(COARSE).copied().collect();
     let mut track = RobotTrack::new("robot", body, poses);
     track.maps = vec![watch.growth()];
@@ -67,8 +68,6 @@ pub(super) fn of(
 /// Records the map after each move.
 #[derive(Debug)]
 struct Watch {
-    start: Point,
-    home: PlaceId,
     nodes: BTreeMap<PlaceId, MapNode>,
     /// Edges by link and ends. Merging places gives a link other ends, and so another edge.
     edges: BTreeMap<(LinkId, PlaceId, PlaceId), MapEdge>,
@@ -80,10 +79,8 @@ struct Watch {
 }
 
 impl Watch {
-    fn new(survey: &Survey) -> Self {
-        let mut watch = Self {
-            start: survey.past().start,
-            home: survey.observer().place(),
+    fn new() -> Self {
+        Self {
             nodes: BTreeMap::new(),
             edges: BTreeMap::new(),
             belief: Belief::new("where the robot may be"),
@@ -91,25 +88,23 @@ impl Watch {
             error: TimeSeries::new("squared error", "m²"),
             matcher: Notes::new("match"),
             reason: Notes::new("why"),
-        };
-        watch.map(survey, 0);
-        watch
+        }
     }
 
-    fn see(&mut self, survey: &Survey, surveyed: &SurveyedMove) {
-        let step = (survey.robot().path().len().saturating_sub(1) / COARSE) as u32;
-        let best = surveyed.report.tracks.first();
+    fn see(&mut self, survey: &Survey, observer: &Observer, moved: &MappedMove) {
+        let step = (survey.path().len().saturating_sub(1) / COARSE) as u32;
+        let best = moved.report.tracks.first();
         let before = best.and_then(|track| self.nodes.get(&track.from));
         let before = before.map(MapNode::latest);
-        self.map(survey, step);
-        let tracks = survey.observer().tracks().iter();
+        self.map(observer, survey.path()[0].position, step);
+        let tracks = observer.tracks().iter();
         let shapes = tracks.map(|track| Shape::Node {
             id: track.place.0,
             weight: track.confidence.clamp(0.0, 1.0),
         });
         let mut shapes: Vec<Shape> = shapes.collect();
         if let Some(before) = before {
-            let PointBox { x, y } = surveyed.arrival.moved;
+            let PointBox { x, y } = moved.arrival.moved;
             shapes.push(Shape::Box {
                 min: Point::new(before.x + x.low(), before.y + y.low()),
                 max: Point::new(before.x + x.high(), before.y + y.high()),
@@ -119,7 +114,7 @@ impl Watch {
         // Of several beliefs at one step the last counts.
         self.belief.entries.pop_if(|entry| entry.step >= step);
         self.belief.entries.push(BeliefAt { step, shapes });
-        let places = survey.observer().map().paths.places().count();
+        let places = observer.map().paths.places().count();
         self.places.sample(step, places as f64);
         if let Some(error) = survey.errors().last() {
             self.error.sample(step, error.map);
@@ -127,19 +122,21 @@ impl Watch {
         let matcher = best.and_then(|track| track.matcher);
         let matcher = matcher.map_or("blocked".to_owned(), |matcher| format!("{matcher:?}"));
         self.matcher.say(step, matcher);
-        let reason = match &surveyed.decision.reason {
-            Reason::Walk => "random walk".to_owned(),
-            Reason::Advice(advice) => format!("advice: {:?}", advice.kind),
-            Reason::Script => "script".to_owned(),
-        };
-        self.reason.say(step, reason);
+        if let Some(reason) = &moved.reason {
+            let reason = match reason {
+                Reason::Walk => "random walk".to_owned(),
+                Reason::Advice(advice) => format!("advice: {:?}", advice.kind),
+                Reason::Script => "script".to_owned(),
+            };
+            self.reason.say(step, reason);
+        }
     }
 
-    /// Records the changes of the map.
-    fn map(&mut self, survey: &Survey, step: u32) {
-        let map = survey.observer().map();
-        for drawn in map.layout(self.home) {
-            let position = self.start + drawn.bounds.middle().coords;
+    /// Records the changes of the map, whose first place lies at `start`.
+    fn map(&mut self, observer: &Observer, start: Point, step: u32) {
+        let map = observer.map();
+        for drawn in map.layout(PlaceId(0)) {
+            let position = start + drawn.bounds.middle().coords;
             let id = drawn.place;
             let node = self.nodes.entry(id);
             let node = node.or_insert_with(|| MapNode::new(id.0, position, step));
@@ -150,7 +147,7 @@ impl Watch {
                 node.died = Some(step);
             }
         }
-        if let Some(here) = self.nodes.get_mut(&survey.observer().place()) {
+        if let Some(here) = self.nodes.get_mut(&observer.place()) {
             here.visits.pop_if(|visit| *visit >= step);
             here.visits.push(step);
         }

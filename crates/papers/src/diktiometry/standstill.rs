@@ -17,10 +17,11 @@ pub(super) struct Standstill {
 }
 
 impl Standstill {
-    /// Takes in a move in a world with `ways` ways, counted from both ends. The robot went from
-    /// `from`, and is at the survey's last visit.
-    pub(super) fn note(&mut self, survey: &Survey, from: u32, direction: Direction, ways: usize) {
-        let here = survey.visits().last().map_or(from, |visit| visit.site);
+    /// Takes in the survey's last move, in a world with `ways` ways, counted from both ends.
+    pub(super) fn note(&mut self, survey: &Survey, direction: Direction, ways: usize) {
+        let &[.., from, here] = survey.sites() else {
+            return;
+        };
         let is_new = here != from && self.known.insert((from, direction));
         if is_new {
             self.known.insert((here, direction.opposite()));

@@ -2,17 +2,16 @@ use core::error::Error;
 
 use thiserror::Error as ThisError;
 use tolman_maps::diktiometry::{
-    Config, FirstPlace, ObservedMove, ObservedMoveError, Observer, PlaceId, StartError,
+    Config, ObservedMove, ObservedMoveError, Observer, PlaceBelief, PlaceId, StartError,
 };
 use tolman_robot::{
-    Compass, Guess, Landmark, MapView, Mapper, Ranges, Robot, Rolls, SensesLandmarks, Standing,
+    Compass, Guess, Landmark, MapView, Mapper, Position, Ranges, Rolls, SensesLandmarks, Standing,
     System, Task, TurnTranslate, VisitNaming,
 };
 
-use super::noticing::{BreakOff, sought};
 use super::{
-    Eye, Guide, LandmarkSpot, MapError, Next, Noticing, RoutineConfig, RoutineConfigError,
-    RoutineError, Surveyor, of_mapper,
+    Eye, Guide, LandmarkSpot, MapError, MappedMove, RouteFinder, RoutineConfig, RoutineConfigError,
+    RoutineError, Rover, Surveyor, sought,
 };
 
 /// The diktiometry as a system: it drives a robot from place to place, maps what it finds and goes
@@ -20,13 +19,13 @@ use super::{
 ///
 /// Each action is one control routine, from a place to the next. Its tasks:
 ///
-/// - **Explore**: the [`Planner`](super::Planner)'s walk. It ends when nothing is left to try at
-///   any place that can be reached on the map. Moreover, no two places may be one, and the map must
-///   not contradict itself. It gives up a map that has contradicted itself for 20 moves. It also
-///   gives up a map that was not folded for five moves per place, at most 300 moves, and at once a
-///   map that grows without end. If the robot was carried elsewhere, so that the view differs from
-///   that at its last stop, it begins another map there. By the paper's rule of matching, or on a
-///   map that it was given, it gives up.
+/// - **Explore**: a random walk that heeds the map's advice. By [`ExploreUntil::Whole`] it ends when
+///   nothing is left to try at any place that can be reached on the map. Moreover, no two places may
+///   be one, and the map must not contradict itself. It gives up a map that has contradicted itself
+///   for 20 moves. It also gives up a map that was not folded for five moves per place, at most 300
+///   moves, and at once a map that grows without end. If the robot was carried elsewhere, so that
+///   the view differs from that at its last stop, it begins another map there. By the paper's rule
+///   of matching, or on a map that it was given, it gives up.
 /// - **Reach** a place: the map's plan, made again after every routine. It gives up if the map
 ///   knows no way.
 /// - **Reach** a landmark: the plan to where it was sensed last, at a place or on the way between
@@ -34,6 +33,16 @@ use super::{
 /// - **Localize**: the planner's walk, until one hypothesis is confident and no other is. With an
 ///   earlier map it first makes as many moves as the mapper's `tracks.history`, on which confidence
 ///   rests.
+///
+/// Once it was [put down](Self::put_down) anywhere on its map, it never changes the map:
+///
+/// - **Localize**: it keeps a [`PlaceBelief`] and makes the moves that tell the likeliest places
+///   apart. It ends when one place has 90 % of the belief, or the map tells no more of them apart.
+/// - **Reach** a place or a landmark: it localizes and follows the shortest way on the map. If that
+///   leads elsewhere than on the map, it localizes again. A way that differed from the map is
+///   avoided as long as there are others. At a landmark on the way between two places it stops. It
+///   gives up if the map does not have the landmark, or if its moves do not fit the map for long.
+/// - **Explore**: it gives up.
 ///
 /// A robot that starts in mid-corridor goes to a place before it maps. After a routine that broke
 /// off, it goes back to the place it left. With an earlier map it continues as if the robot stood
@@ -46,9 +55,23 @@ pub struct Diktiometer<E> {
     config: DiktiometerConfig,
     eye: E,
     guide: Guide,
-    /// Places that the robot visited, by their ids at that time; `None` for places of a dropped
-    /// map.
-    visited: Vec<Option<PlaceId>>,
+    /// Finder of the way since the robot was put down; `None` before.
+    finder: Option<RouteFinder>,
+    seed: u64,
+}
+
+/// When a [`Diktiometer`] has explored enough.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ExploreUntil {
+    /// When its map is whole. The robot may begin anywhere and be carried elsewhere, and gives up a
+    /// doubtful map.
+    Whole,
+    /// After this many moves, on its own map or on one that it was given. The robot begins at a
+    /// place, and nobody carries it. It gives up a map that grows without end.
+    Moves(u32),
+    /// Never, as the paper's robot, whatever becomes of its map: whoever watches it ends the run.
+    /// It begins at a place, and nobody carries it.
+    Never,
 }
 
 /// Parts of a [`Diktiometer`].
@@ -62,16 +85,20 @@ pub struct DiktiometerConfig {
     /// Probability that a script is begun when one is applicable, 0 … 1. Paper: "generally 30% of
     /// the time".
     pub heed: f64,
+    /// When it has explored enough.
+    pub until: ExploreUntil,
 }
 
 impl DiktiometerConfig {
-    /// Returns a configuration that follows advice in 30 % of the cases, as in the paper.
+    /// Returns a configuration that follows advice in 30 % of the cases, as in the paper, until the
+    /// map is whole.
     #[must_use]
     pub const fn paper(routines: RoutineConfig, mapper: Config) -> Self {
         Self {
             routines,
             mapper,
             heed: 0.3,
+            until: ExploreUntil::Whole,
         }
     }
 }
@@ -105,8 +132,7 @@ impl<E> Diktiometer<E> {
     /// walk.
     #[must_use]
     pub fn new(config: DiktiometerConfig, eye: E, seed: u64) -> Self {
-        let guide = Guide::new(None, config.heed, seed);
-        Self::guided(config, eye, guide)
+        Self::beginning(None, config, eye, seed)
     }
 
     /// Returns a system that continues with the map of `observer`, learned by another or read from
@@ -114,17 +140,16 @@ impl<E> Diktiometer<E> {
     #[must_use]
     pub fn with_map(mut config: DiktiometerConfig, eye: E, observer: Observer, seed: u64) -> Self {
         config.mapper = observer.config().clone();
-        let guide = Guide::new(Some(observer), config.heed, seed);
-        Self::guided(config, eye, guide)
+        Self::beginning(Some(observer), config, eye, seed)
     }
 
-    const fn guided(config: DiktiometerConfig, eye: E, guide: Guide) -> Self {
-        let visited = Vec::new();
+    fn beginning(observer: Option<Observer>, config: DiktiometerConfig, eye: E, seed: u64) -> Self {
         Self {
+            guide: Guide::new(observer, config.until, config.heed, seed),
+            finder: None,
             config,
             eye,
-            guide,
-            visited,
+            seed,
         }
     }
 
@@ -150,6 +175,43 @@ impl<E> Diktiometer<E> {
     pub fn observer(&self) -> Option<&Observer> {
         self.guide.observer()
     }
+
+    /// Returns the last move; `None` before the first one on the map.
+    #[must_use]
+    pub const fn last_move(&self) -> Option<&MappedMove> {
+        self.guide.last()
+    }
+
+    /// Returns the places that the robot visited, from the first on, by their ids at that time;
+    /// `None` for places of a dropped map.
+    #[must_use]
+    pub fn visited(&self) -> &[Option<PlaceId>] {
+        self.guide.visited()
+    }
+
+    /// Takes in that the robot was put down anywhere, and returns whether it can go on: if it has a
+    /// map. It knows where landmarks are, but not its place.
+    pub fn put_down(&mut self) -> Standing {
+        let Some(map) = self.observer() else {
+            return Standing::gave_up("it has no map to find itself on");
+        };
+        let goal = self.spot_of(Landmark::Goal);
+        self.finder = Some(RouteFinder::new(map.clone(), goal, self.seed));
+        Standing::UnderWay
+    }
+
+    /// Makes the next move of `task` with a robot that has routines of its own. Eye and routines of
+    /// this system are not used.
+    ///
+    /// # Errors
+    /// [`MapError`] if robot or observer cannot go on.
+    pub fn act_with<V: Rover>(
+        &mut self,
+        rover: &mut V,
+        task: Task,
+    ) -> Result<Standing, MapError<V::Error>> {
+        self.guide.act(rover, &self.config.mapper, task)
+    }
 }
 
 impl<E> Mapper for Diktiometer<E> {
@@ -159,20 +221,11 @@ impl<E> Mapper for Diktiometer<E> {
     /// Takes in a move made by another. Without a map it begins one at an unknown place, which a
     /// mapper with percepts refuses.
     fn observe(&mut self, seen: &ObservedMove) -> Result<(), RefusedMove> {
-        if let Some(observer) = self.guide.observer_mut() {
-            if self.visited.is_empty() {
-                self.visited.push(Some(observer.place()));
-            }
-            observer.step(seen)?;
-            self.visited.push(Some(observer.place()));
+        if let Some(finder) = &mut self.finder {
+            finder.take_in(seen);
             return Ok(());
         }
-        let mut observer = Observer::new(self.config.mapper.clone(), FirstPlace::default())?;
-        self.visited.push(Some(observer.place()));
-        observer.step(seen)?;
-        self.visited.push(Some(observer.place()));
-        self.guide.take_over(observer);
-        Ok(())
+        self.guide.observe(seen, &self.config.mapper)
     }
 
     fn map(&self) -> MapView {
@@ -187,7 +240,15 @@ impl<E> Mapper for Diktiometer<E> {
     }
 
     fn belief(&self) -> Vec<Guess> {
-        self.observer().map_or_else(Vec::new, Mapper::belief)
+        let Some(finder) = &self.finder else {
+            return self.observer().map_or_else(Vec::new, Mapper::belief);
+        };
+        let places = finder.belief().into_iter().flat_map(PlaceBelief::places);
+        let guess = |(place, weight): (PlaceId, f64)| Guess {
+            at: Position::Place(place.0),
+            weight,
+        };
+        places.map(guess).collect()
     }
 
     fn certainty(&self) -> Option<f64> {
@@ -209,13 +270,13 @@ impl<E> Mapper for Diktiometer<E> {
     fn visits(&self) -> Vec<Option<u32>> {
         let paths = self.observer().map(|observer| &observer.map().paths);
         let now = |place: &Option<PlaceId>| Some(paths?.resolve((*place)?)?.0);
-        self.visited.iter().map(now).collect()
+        self.visited().iter().map(now).collect()
     }
 }
 
 impl<R, E> System<R> for Diktiometer<E>
 where
-    R: SensesLandmarks + Robot<Command = TurnTranslate, Error: Error + Send + Sync + 'static>,
+    R: SensesLandmarks<Command = TurnTranslate, Error: Error + Send + Sync + 'static>,
     R::Sensing: Ranges + Compass + Rolls,
     E: Eye<R::Sensing>,
 {
@@ -223,68 +284,28 @@ where
 
     fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, Self::Failure> {
         let sought = sought(task, |landmark| self.guide.spot_of(landmark));
-        let noticing = Noticing::new(robot, sought);
-        let mut rover = Surveyor::new(noticing, &self.eye, self.config.routines)?;
-        let (guide, visited) = (&mut self.guide, &mut self.visited);
-        match advance(guide, visited, &self.config.mapper, &mut rover, task) {
-            Ok(standing) => Ok(standing),
-            Err(error) => match of_mapper(error) {
-                None => {
-                    if let Some(landmark) = sought {
-                        self.guide.broke_off_at(landmark);
-                    }
-                    Ok(Standing::Done)
-                }
-                Some(error) => Err(error.into()),
-            },
+        let rover = Surveyor::new(robot, &self.eye, self.config.routines)?;
+        let mut rover = rover.seeking(sought);
+        let acted = match &mut self.finder {
+            Some(finder) => finder.act(&mut rover, task).map_err(MapError::Robot),
+            None => self.guide.act(&mut rover, &self.config.mapper, task),
+        };
+        match (acted, &mut self.finder, sought) {
+            (Err(MapError::Robot(RoutineError::Found)), Some(finder), _) => finder.lose_footing(),
+            (Err(MapError::Robot(RoutineError::Found)), None, Some(landmark)) => {
+                self.guide.broke_off_at(landmark);
+            }
+            (acted, ..) => return Ok(acted?),
         }
+        Ok(Standing::Done)
+    }
+
+    fn put_down(&mut self) -> Standing {
+        Self::put_down(self)
     }
 
     fn words(&self) -> String {
-        self.guide.words()
+        let finder = self.finder.as_ref();
+        finder.map_or_else(|| self.guide.words(), RouteFinder::words)
     }
-}
-
-/// Makes the next move of a task.
-fn advance<R, E>(
-    guide: &mut Guide,
-    visited: &mut Vec<Option<PlaceId>>,
-    mapper: &Config,
-    rover: &mut Surveyor<Noticing<'_, R>, E>,
-    task: Task,
-) -> Result<Standing, MapError<RoutineError<BreakOff<R::Error>>>>
-where
-    R: SensesLandmarks + Robot<Command = TurnTranslate, Error: Error + Send + Sync + 'static>,
-    R::Sensing: Ranges + Compass + Rolls,
-    E: Eye<R::Sensing>,
-{
-    let begins_again = task == Task::Explore && guide.drops_map();
-    guide.find_footing(rover, mapper)?;
-    let place = guide.observer().map(Observer::place);
-    if begins_again {
-        visited.fill(None);
-        visited.push(place);
-        return Ok(Standing::UnderWay);
-    }
-    let before = rover.robot().landmark();
-    guide.recognize(before);
-    let direction = match guide.next(task, before) {
-        Next::Continue(direction) => direction,
-        Next::Break(standing) => return Ok(standing),
-    };
-    if visited.is_empty() && place.is_some() {
-        visited.push(place);
-    }
-    if !guide.go(rover, direction)? {
-        return Ok(Standing::UnderWay);
-    }
-    visited.push(guide.observer().map(Observer::place));
-    let here = rover.robot().landmark();
-    let passed = rover.robot().on_the_way([before, here]);
-    guide.recognize_on_way(passed, place);
-    guide.recognize(here);
-    if guide.is_done(task, here) {
-        return Ok(Standing::Done);
-    }
-    Ok(Standing::UnderWay)
 }

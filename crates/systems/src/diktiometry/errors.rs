@@ -21,6 +21,9 @@ pub enum RoutineError<E: Error + 'static> {
     /// The robot's view is not a valid signature.
     #[error("the image gives no signature; check the camera")]
     Signature(#[from] SignatureError),
+    /// The robot broke off: it stands at the landmark that it seeks.
+    #[error("the robot stands at the landmark that it seeks")]
+    Found,
     /// No place came in sight.
     #[error("after {steps} time steps the way {direction} has led to no place: lower the noise")]
     Lost {

@@ -3,25 +3,41 @@ use alloc::format;
 use core::ops::ControlFlow;
 
 use rand_chacha::ChaCha8Rng;
-use tolman_maps::diktiometry::{Action, Config, Identity, MapState, Observer, PlaceId};
+use tolman_maps::diktiometry::{
+    Action, Config, FirstPlace, Identity, MapState, ObservedMove, Observer, PlaceId, Signature,
+    WorldKind,
+};
 use tolman_maze::Direction;
 use tolman_planners::path_to;
 use tolman_robot::{Goal, Landmark, Standing, Task};
 
-use super::{LandmarkSpot, MapError, Planner, Rover, RoverMap};
+use super::{
+    ExploreUntil, LandmarkSpot, MapError, MappedMove, Planner, Reason, RefusedMove, Rover,
+    first_place, observed,
+};
 use crate::stream;
 
 /// Chooses the next move of a task by the map of a rover. It knows no robot.
 #[derive(Clone, Debug)]
 pub(super) struct Guide {
-    mapping: Option<RoverMap>,
+    observer: Option<Observer>,
+    /// Whether a way leads on from the rover's place in each direction, by [`Direction::index`].
+    exits: [bool; 4],
+    /// View of the place where the rover stopped.
+    look: Option<Signature>,
+    until: ExploreUntil,
     whereabouts: Whereabouts,
     /// Direction of a routine in progress, or of one that broke off.
     under_way: Option<Direction>,
     planner: Planner,
     walk: ChaCha8Rng,
-    /// Direction of the last move; `None` where the map begins.
-    came: Option<Direction>,
+    /// Reason of the walk for the direction chosen last.
+    reason: Option<Reason>,
+    /// Last move; `None` where the map begins.
+    last: Option<MappedMove>,
+    /// Places that the rover visited, by their ids at that time; `None` for places of a dropped
+    /// map.
+    visited: Vec<Option<PlaceId>>,
     /// Where each landmark was sensed last, by the place's id at that time.
     landmarks: BTreeMap<Landmark, LandmarkSpot>,
     /// Number of moves so far.
@@ -78,18 +94,28 @@ impl Whereabouts {
 /// Direction to the next place, or the standing of the task if nothing is left to do.
 pub(super) type Next = ControlFlow<Standing, Direction>;
 
-/// Stream of the random walk; the same that a survey uses.
+/// Stream of the random walk.
 const WALK_STREAM: u64 = 1;
 
 impl Guide {
-    pub(super) fn new(observer: Option<Observer>, heed: f64, seed: u64) -> Self {
+    pub(super) fn new(
+        observer: Option<Observer>,
+        until: ExploreUntil,
+        heed: f64,
+        seed: u64,
+    ) -> Self {
         Self {
-            mapping: observer.map(RoverMap::of),
+            observer,
+            exits: [false; 4],
+            look: None,
+            until,
             whereabouts: Whereabouts::Unknown,
             under_way: None,
             planner: Planner::new(heed),
             walk: stream(seed, WALK_STREAM),
-            came: None,
+            reason: None,
+            last: None,
+            visited: Vec::new(),
             landmarks: BTreeMap::new(),
             moves: 0,
             doubt: None,
@@ -98,26 +124,80 @@ impl Guide {
         }
     }
 
-    pub(super) fn observer(&self) -> Option<&Observer> {
-        self.mapping.as_ref().map(RoverMap::observer)
+    pub(super) const fn observer(&self) -> Option<&Observer> {
+        self.observer.as_ref()
     }
 
-    /// Returns the observer, to tell it of moves that the guide did not choose.
-    pub(super) fn observer_mut(&mut self) -> Option<&mut Observer> {
-        self.whereabouts = Whereabouts::Unknown;
-        self.mapping.as_mut().map(RoverMap::observer_mut)
+    pub(super) const fn last(&self) -> Option<&MappedMove> {
+        self.last.as_ref()
     }
 
-    /// Begins with the map of `observer`.
-    pub(super) fn take_over(&mut self, observer: Observer) {
+    pub(super) fn visited(&self) -> &[Option<PlaceId>] {
+        &self.visited
+    }
+
+    /// Takes in a move that the guide did not choose. Without a map it begins one of this
+    /// configuration, at an unknown place.
+    pub(super) fn observe(
+        &mut self,
+        seen: &ObservedMove,
+        config: &Config,
+    ) -> Result<(), RefusedMove> {
         self.whereabouts = Whereabouts::Unknown;
-        (self.is_carried, self.is_own_map) = (false, false);
-        self.mapping = Some(RoverMap::of(observer));
+        let observer = match &mut self.observer {
+            Some(observer) => observer,
+            none => none.insert(Observer::new(config.clone(), FirstPlace::default())?),
+        };
+        if self.visited.is_empty() {
+            self.visited.push(Some(observer.place()));
+        }
+        observer.step(seen)?;
+        self.visited.push(Some(observer.place()));
+        Ok(())
+    }
+
+    /// Makes the next move of `task` with `rover`.
+    pub(super) fn act<V: Rover>(
+        &mut self,
+        rover: &mut V,
+        config: &Config,
+        task: Task,
+    ) -> Result<Standing, MapError<V::Error>> {
+        let begins_again = task == Task::Explore && self.drops_map();
+        self.find_footing(rover, config)?;
+        let place = self.observer().map(Observer::place);
+        if begins_again {
+            self.visited.fill(None);
+            self.visited.push(place);
+            return Ok(Standing::UnderWay);
+        }
+        if self.visited.is_empty() && place.is_some() {
+            self.visited.push(place);
+        }
+        let before = rover.landmark();
+        self.recognize(before);
+        let direction = match self.next(task, before) {
+            Next::Continue(direction) => direction,
+            Next::Break(standing) => return Ok(standing),
+        };
+        if !self.go(rover, direction)? {
+            return Ok(Standing::UnderWay);
+        }
+        self.visited.push(self.observer().map(Observer::place));
+        let (here, passed) = (rover.landmark(), rover.passed());
+        let on_the_way = passed.filter(|_| ![before, here].contains(&passed));
+        self.recognize_on_way(on_the_way, place);
+        self.recognize(here);
+        if self.is_done(task, here) {
+            return Ok(Standing::Done);
+        }
+        Ok(Standing::UnderWay)
     }
 
     /// Lets `rover` look round if its place is unknown. From mid-corridor it first goes to a place,
-    /// without the map: back to the last one if a routine broke off.
-    pub(super) fn find_footing<V: Rover>(
+    /// without the map: back to the last one if a routine broke off. A rover that makes a number of
+    /// moves is at a place.
+    fn find_footing<V: Rover>(
         &mut self,
         rover: &mut V,
         config: &Config,
@@ -126,31 +206,32 @@ impl Guide {
             return Ok(());
         }
         let back = self.under_way.map(Direction::opposite);
-        leave_corridor(rover, back).map_err(MapError::Robot)?;
+        if self.until == ExploreUntil::Whole {
+            leave_corridor(rover, back).map_err(MapError::Robot)?;
+        }
         self.under_way = None;
-        self.whereabouts = match &mut self.mapping {
-            Some(mapping) => {
-                mapping.look_round(rover)?;
-                Whereabouts::SetDown { moves: 0 }
-            }
-            None => {
-                self.mapping = Some(RoverMap::begin(rover, config.clone())?);
-                self.is_own_map = true;
-                Whereabouts::Followed
-            }
-        };
+        let seen = rover.look().map_err(MapError::Robot)?;
+        if self.observer.is_none() {
+            let start = first_place(config, &seen);
+            self.observer = Some(Observer::new(config.clone(), start)?);
+            self.is_own_map = true;
+            self.whereabouts = Whereabouts::Followed;
+        } else {
+            self.whereabouts = Whereabouts::SetDown { moves: 0 };
+        }
+        (self.exits, self.look) = (seen.exits, seen.look);
         Ok(())
     }
 
     /// Drops a map of its own during which the rover was carried elsewhere, and returns whether it
     /// did. The next map begins at the rover's place. Not by the paper's rule of matching.
-    pub(super) fn drops_map(&mut self) -> bool {
+    fn drops_map(&mut self) -> bool {
         let is_by_the_paper = self.observer().is_some_and(is_by_the_paper);
         if !(self.is_carried && self.is_own_map) || is_by_the_paper {
             return false;
         }
-        self.mapping = None;
-        (self.under_way, self.came, self.doubt, self.is_carried) = (None, None, None, false);
+        self.observer = None;
+        (self.under_way, self.last, self.doubt, self.is_carried) = (None, None, None, false);
         self.whereabouts = Whereabouts::Unknown;
         self.landmarks.clear();
         self.planner.drop_script();
@@ -158,7 +239,7 @@ impl Guide {
     }
 
     /// Remembers that the rover senses `landmark` at its place.
-    pub(super) fn recognize(&mut self, landmark: Option<Landmark>) {
+    fn recognize(&mut self, landmark: Option<Landmark>) {
         if let (Some(landmark), Some(observer)) = (landmark, self.observer()) {
             let place = observer.place();
             self.remember(landmark, LandmarkSpot::Place(place));
@@ -167,11 +248,11 @@ impl Guide {
 
     /// Remembers that `landmark` was sensed on the rover's last move, from `place`. A place where
     /// it was sensed is the better spot.
-    pub(super) fn recognize_on_way(&mut self, landmark: Option<Landmark>, place: Option<PlaceId>) {
-        if let (Some(landmark), Some(place), Some(came)) = (landmark, place, self.came)
+    fn recognize_on_way(&mut self, landmark: Option<Landmark>, place: Option<PlaceId>) {
+        if let (Some(landmark), Some(place), Some(last)) = (landmark, place, &self.last)
             && !matches!(self.spot_of(landmark), Some(LandmarkSpot::Place(_)))
         {
-            self.remember(landmark, LandmarkSpot::Way(place, came));
+            self.remember(landmark, LandmarkSpot::Way(place, last.direction));
         }
     }
 
@@ -189,27 +270,35 @@ impl Guide {
     }
 
     /// Lets `rover` go in `direction`, and updates the map. Returns whether it went. If its view
-    /// has changed since it stopped, it was carried elsewhere and does not go.
-    pub(super) fn go<V: Rover>(
+    /// has changed since it stopped, it was carried elsewhere and does not go. Nobody carries a
+    /// rover that makes a number of moves.
+    fn go<V: Rover>(
         &mut self,
         rover: &mut V,
         direction: Direction,
     ) -> Result<bool, MapError<V::Error>> {
-        let Some(mapping) = &mut self.mapping else {
-            return Ok(false);
-        };
-        if !mapping.is_where_it_was(rover)? {
+        if self.until == ExploreUntil::Whole && !self.is_where_it_was(rover)? {
             self.is_carried = true;
             self.whereabouts = Whereabouts::Unknown;
             return Ok(false);
         }
+        let Some(observer) = &mut self.observer else {
+            return Ok(false);
+        };
         // If the rover breaks off, it stands between two places.
         let before = core::mem::replace(&mut self.whereabouts, Whereabouts::Unknown);
         self.under_way = Some(direction);
-        mapping.go(rover, direction)?;
+        let arrival = rover.go(direction).map_err(MapError::Robot)?;
+        let report = observer.step(&observed(observer.config(), direction, &arrival))?;
+        (self.exits, self.look) = (arrival.exits, arrival.look.clone());
+        self.last = Some(MappedMove {
+            direction,
+            reason: self.reason.take(),
+            arrival,
+            report,
+        });
         self.under_way = None;
-        self.came = Some(direction);
-        let history = mapping.observer().config().tracks.history;
+        let history = observer.config().tracks.history;
         self.whereabouts = before.after_a_move(history);
         self.moves = self.moves.saturating_add(1);
         if self.moves.is_multiple_of(CHECKED) {
@@ -218,16 +307,34 @@ impl Guide {
         Ok(true)
     }
 
+    /// Lets `rover` look, and returns whether it sees the same as when it stopped. Views are
+    /// compared if it has any. Ways that lead on are compared if the world is static.
+    fn is_where_it_was<V: Rover>(&self, rover: &mut V) -> Result<bool, MapError<V::Error>> {
+        let seen = rover.look().map_err(MapError::Robot)?;
+        Ok(self.observer().is_none_or(|observer| {
+            let config = observer.config();
+            let has_other_exits = config.world == WorldKind::Static && seen.exits != self.exits;
+            let (now, before) = (seen.look.as_ref(), self.look.as_ref());
+            !has_other_exits && config.percepts.are_alike(now, before)
+        }))
+    }
+
     /// Returns the objection to the map and the number of moves when it arose, or `None` without
     /// one.
     fn doubted(&self) -> Option<(MapState, u32)> {
-        let state = self.observer().and_then(objection)?;
+        let observer = self.observer()?;
+        let state = match self.until {
+            ExploreUntil::Whole => objection(observer)?,
+            ExploreUntil::Moves(_) if observer.grows_without_end() => MapState::Endless,
+            ExploreUntil::Moves(_) | ExploreUntil::Never => return None,
+        };
         let before = self.doubt.filter(|(before, _)| *before == state);
         Some(before.unwrap_or((state, self.moves)))
     }
 
     /// Returns the next step of `task`, if the rover senses the landmark `here`.
-    pub(super) fn next(&mut self, task: Task, here: Option<Landmark>) -> Next {
+    fn next(&mut self, task: Task, here: Option<Landmark>) -> Next {
+        self.reason = None;
         if self.is_done(task, here) {
             return Next::Break(Standing::Done);
         }
@@ -243,14 +350,18 @@ impl Guide {
     }
 
     /// Returns whether `task` is done, if the rover senses the landmark `here`.
-    pub(super) fn is_done(&self, task: Task, here: Option<Landmark>) -> bool {
+    fn is_done(&self, task: Task, here: Option<Landmark>) -> bool {
         let Some(observer) = self.observer() else {
             return false;
         };
         match task {
-            Task::Explore => {
-                !self.is_carried && is_explored(observer) && objection(observer).is_none()
-            }
+            Task::Explore => match self.until {
+                ExploreUntil::Whole => {
+                    !self.is_carried && is_explored(observer) && objection(observer).is_none()
+                }
+                ExploreUntil::Moves(moves) => self.moves >= moves,
+                ExploreUntil::Never => false,
+            },
             Task::Localize => self.whereabouts == Whereabouts::Followed && is_sure(observer),
             Task::Reach(Goal::Landmark(landmark)) => here == Some(landmark),
             Task::Reach(Goal::Place(id)) => {
@@ -284,20 +395,21 @@ impl Guide {
     /// in dead ends only: a loop folds for who goes round it.
     fn wander(&mut self) -> Next {
         let goes_round = matches!(self.doubt, Some((MapState::Unfolded, _)));
-        let decision = self.mapping.as_ref().and_then(|mapping| {
-            let (observer, mut exits) = (mapping.observer(), *mapping.exits());
-            let back = self.came.filter(|_| goes_round).map(Direction::opposite);
-            if let Some(back) = back.map(Direction::index)
+        let decision = self.observer.as_ref().and_then(|observer| {
+            let mut exits = self.exits;
+            let came = self.last.as_ref().filter(|_| goes_round);
+            if let Some(back) = came.map(|last| last.direction.opposite().index())
                 && exits.iter().filter(|is_open| **is_open).count() > 1
             {
                 exits[back] = false;
             }
             self.planner.choose(observer, &exits, &mut self.walk)
         });
-        decision.map_or_else(
-            || give_up("no way leads on from where it stands"),
-            |decision| Next::Continue(decision.direction),
-        )
+        let Some(decision) = decision else {
+            return give_up("no way leads on from where it stands");
+        };
+        self.reason = Some(decision.reason);
+        Next::Continue(decision.direction)
     }
 
     /// Follows the plan to a place of the map.
@@ -392,9 +504,8 @@ fn leave_corridor<V: Rover>(rover: &mut V, back: Option<Direction>) -> Result<()
     rover.go(back.unwrap_or(axis[0])).map(|_| ())
 }
 
-fn give_up(why: &str) -> Next {
-    let why = why.to_owned();
-    Next::Break(Standing::GaveUp { why })
+pub(super) fn give_up(why: &str) -> Next {
+    Next::Break(Standing::gave_up(why))
 }
 
 /// Returns whether places are matched by the paper's rule.

@@ -5,12 +5,12 @@
 //! 1. A [`Surveyor`] makes a [`Rover`] of any robot that turns and translates and that senses
 //!    ranges, compass and wheels. Its control routines end at corners and doorways.
 //! 2. An [`Odometer`] bounds the robot's displacement; an [`Eye`] makes a signature of its view.
-//! 3. A [`RoverMap`] passes each [`Arrival`] to the
-//!    [`Observer`](tolman_maps::diktiometry::Observer), which makes the map.
-//! 4. A [`Planner`] chooses where to go: at random, or as the map advises.
+//! 3. Each [`Arrival`] goes to the [`Observer`](tolman_maps::diktiometry::Observer), which makes
+//!    the map.
+//! 4. The planner chooses where to go: at random, or as the map advises.
 //!
 //! A [`Diktiometer`] is all of this as a [`System`](tolman_robot::System): it explores, localizes,
-//! and goes to places and landmarks. A [`Wayfinder`] is put down anywhere on a learned map.
+//! and goes to places and landmarks, also when it was put down anywhere on its map.
 //!
 //! Source: S. Engelson, D. McDermott, "Maps Considered as Adaptive Planning Resources", AAAI Fall
 //! Symposium 1992.
@@ -20,7 +20,8 @@ mod diktiometer;
 mod errors;
 mod eye;
 mod guide;
-mod noticing;
+mod landmark_spot;
+mod mapped_move;
 mod odometer;
 mod of_sites;
 mod place_middle;
@@ -28,28 +29,28 @@ mod planner;
 mod route_finder;
 mod routine_config;
 mod rover;
-mod rover_map;
 mod surveyor;
 #[cfg(test)]
 mod tests;
-mod wayfinder;
 
-pub use diktiometer::{Diktiometer, DiktiometerConfig, DiktiometerError, RefusedMove};
+pub use diktiometer::{
+    Diktiometer, DiktiometerConfig, DiktiometerError, ExploreUntil, RefusedMove,
+};
 pub use errors::{RoutineError, SenseError};
 pub use eye::{CameraEye, Eye, LaserEye, NoEye, aligned_signatures, exit_signatures};
-pub use noticing::LandmarkSpot;
+pub use landmark_spot::LandmarkSpot;
+pub use mapped_move::{MapError, MappedMove};
 pub use odometer::Odometer;
 pub use of_sites::DiktiometryOfSites;
-pub use planner::{PlannedMove, Planner, Reason};
+pub use planner::Reason;
 pub use routine_config::{RoutineConfig, RoutineConfigError};
 pub use rover::{Arrival, Rover};
-pub use rover_map::{MapError, MappedMove, RoverMap};
 pub use surveyor::Surveyor;
-pub use wayfinder::{Wayfinder, WayfinderError};
 
 use corridor::{Around, Beside, View, compass, round_scan};
-use guide::{Guide, Next};
-use noticing::{Noticing, of_mapper, of_robot};
+use guide::{Guide, Next, give_up};
+use landmark_spot::sought;
+use mapped_move::{first_place, observed};
 use place_middle::{Offset, offset};
+use planner::Planner;
 use route_finder::RouteFinder;
-use rover_map::{first_place, observed};

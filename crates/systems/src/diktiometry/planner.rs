@@ -9,21 +9,19 @@ use tolman_maze::Direction;
 /// "The use of exploration scripts were tested by randomly executing them when
 /// applicable (generally 30% of the time)."
 #[derive(Clone, Debug)]
-pub struct Planner {
+pub(super) struct Planner {
     heed: f64,
     script: VecDeque<Direction>,
 }
 
 /// Next move of a planner.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PlannedMove {
-    /// Direction to go in.
-    pub direction: Direction,
-    /// Reason why the direction was chosen.
-    pub reason: Reason,
+pub(super) struct PlannedMove {
+    pub(super) direction: Direction,
+    pub(super) reason: Reason,
 }
 
-/// Reason for a robot's direction.
+/// Reason for a direction of a walk.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reason {
     /// A random move.
@@ -37,8 +35,7 @@ pub enum Reason {
 impl Planner {
     /// Returns a planner that begins the best applicable script with probability `heed`, 0 … 1,
     /// whenever none is under way.
-    #[must_use]
-    pub const fn new(heed: f64) -> Self {
+    pub(super) const fn new(heed: f64) -> Self {
         Self {
             heed,
             script: VecDeque::new(),
@@ -46,13 +43,13 @@ impl Planner {
     }
 
     /// Drops the script in progress, because the robot was sent elsewhere.
-    pub fn drop_script(&mut self) {
+    pub(super) fn drop_script(&mut self) {
         self.script.clear();
     }
 
     /// Returns the direction to go from a place whose open ways are `exits`, by
     /// [`Direction::index`]; `None` if no way leads on. Draws two random numbers in any case.
-    pub fn choose(
+    pub(super) fn choose(
         &mut self,
         observer: &Observer,
         exits: &[bool; 4],

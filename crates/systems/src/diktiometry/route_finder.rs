@@ -11,7 +11,7 @@ use tolman_maze::Direction;
 use tolman_planners::{Graph, path_to};
 use tolman_robot::{Goal, Landmark, Standing, Task};
 
-use super::{LandmarkSpot, Next, Rover, first_place, observed};
+use super::{LandmarkSpot, Next, Rover, first_place, give_up, observed};
 use crate::stream;
 
 /// Chooses the next move of a rover that was put down anywhere on a learned map. It knows no robot.
@@ -52,14 +52,6 @@ impl RouteFinder {
         }
     }
 
-    pub(super) const fn map(&self) -> &Observer {
-        &self.map
-    }
-
-    pub(super) const fn goal(&self) -> Option<LandmarkSpot> {
-        self.goal
-    }
-
     pub(super) const fn belief(&self) -> Option<&PlaceBelief> {
         self.belief.as_ref()
     }
@@ -69,8 +61,30 @@ impl RouteFinder {
         self.belief = None;
     }
 
+    /// Makes the next move of `task` with `rover`.
+    pub(super) fn act<V: Rover>(
+        &mut self,
+        rover: &mut V,
+        task: Task,
+    ) -> Result<Standing, V::Error> {
+        if self.belief.is_none() {
+            self.find_footing(rover)?;
+        }
+        let direction = match self.next(task, rover.landmark()) {
+            Next::Continue(direction) => direction,
+            Next::Break(standing) => return Ok(standing),
+        };
+        self.go(rover, direction)?;
+        let here = rover.landmark();
+        self.recognize(here);
+        if self.is_done(task, here) {
+            return Ok(Standing::Done);
+        }
+        Ok(Standing::UnderWay)
+    }
+
     /// Drives to a place from anywhere, without changing the belief, and looks round.
-    pub(super) fn find_footing<V: Rover>(&mut self, rover: &mut V) -> Result<(), V::Error> {
+    fn find_footing<V: Rover>(&mut self, rover: &mut V) -> Result<(), V::Error> {
         let mut seen = rover.look()?;
         let mut ways = Vec::from(Direction::ALL);
         ways.sort_by_key(|way| !seen.exits[way.index()]);
@@ -87,11 +101,7 @@ impl RouteFinder {
     }
 
     /// Lets `rover` go in `direction` and takes in the result.
-    pub(super) fn go<V: Rover>(
-        &mut self,
-        rover: &mut V,
-        direction: Direction,
-    ) -> Result<(), V::Error> {
+    fn go<V: Rover>(&mut self, rover: &mut V, direction: Direction) -> Result<(), V::Error> {
         let arrival = rover.go(direction)?;
         let seen = observed(self.map.config(), direction, &arrival);
         self.take_in(&seen);
@@ -116,7 +126,7 @@ impl RouteFinder {
     }
 
     /// Weighs the belief by the absence of a landmark, if the rover senses none.
-    pub(super) fn recognize(&mut self, here: Option<Landmark>) {
+    fn recognize(&mut self, here: Option<Landmark>) {
         if let (Some(belief), Some(LandmarkSpot::Place(goal)), None) =
             (&mut self.belief, self.goal, here)
         {
@@ -138,7 +148,7 @@ impl RouteFinder {
         belief.telling_action(&self.map).is_none().then_some(place)
     }
 
-    pub(super) fn next(&mut self, task: Task, here: Option<Landmark>) -> Next {
+    fn next(&mut self, task: Task, here: Option<Landmark>) -> Next {
         if self.is_done(task, here) {
             return Next::Break(Standing::Done);
         }
@@ -245,7 +255,7 @@ impl RouteFinder {
         }
     }
 
-    pub(super) fn is_done(&self, task: Task, here: Option<Landmark>) -> bool {
+    fn is_done(&self, task: Task, here: Option<Landmark>) -> bool {
         match task {
             Task::Explore => false,
             Task::Localize => self.here().or_else(|| self.likeliest()).is_some(),
@@ -256,10 +266,6 @@ impl RouteFinder {
             }
         }
     }
-}
-
-fn give_up(why: &str) -> Next {
-    Next::Break(Standing::gave_up(why))
 }
 
 /// The ways of a map that are not known to be shut.

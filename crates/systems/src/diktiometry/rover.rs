@@ -3,6 +3,7 @@ use core::error::Error;
 use tolman_geom::PointBox;
 use tolman_maps::diktiometry::{MoveOutcome, Signature};
 use tolman_maze::Direction;
+use tolman_robot::Landmark;
 
 /// A robot whose control routines end at distinctive places.
 ///
@@ -24,6 +25,17 @@ pub trait Rover {
     /// # Errors
     /// If the routine neither ends at a place nor is blocked.
     fn go(&mut self, direction: Direction) -> Result<Arrival, Self::Error>;
+
+    /// Returns the landmark that the robot senses. The default senses none.
+    fn landmark(&self) -> Option<Landmark> {
+        None
+    }
+
+    /// Returns the last landmark that the robot sensed in a time step of this rover. The default
+    /// senses none.
+    fn passed(&self) -> Option<Landmark> {
+        None
+    }
 }
 
 /// Result of a control routine.

@@ -5,7 +5,7 @@ use tolman_control::heading_of;
 use tolman_geom::Heading;
 use tolman_maps::diktiometry::{MoveOutcome, Signature};
 use tolman_maze::Direction;
-use tolman_robot::{Compass, Odometry, Ranges, Robot, Rolls, TurnTranslate};
+use tolman_robot::{Compass, Landmark, Odometry, Ranges, Rolls, SensesLandmarks, TurnTranslate};
 
 use super::{
     Around, Arrival, Beside, Eye, Odometer, Offset, RoutineConfig, RoutineConfigError,
@@ -27,6 +27,10 @@ pub struct Surveyor<R, E> {
     steps: u32,
     /// Number of time steps in a row of which odometry told nothing.
     unseen: u32,
+    /// Landmark at which the robot breaks off.
+    sought: Option<Landmark>,
+    /// Last landmark that was sensed.
+    passed: Option<Landmark>,
 }
 
 /// Maximum error of a turn, rad.
@@ -52,7 +56,18 @@ impl<R, E> Surveyor<R, E> {
             config,
             steps: 0,
             unseen: 0,
+            sought: None,
+            passed: None,
         })
+    }
+
+    /// Breaks off a routine with [`RoutineError::Found`] where the robot senses `landmark`.
+    #[must_use]
+    pub fn seeking(self, landmark: Option<Landmark>) -> Self {
+        Self {
+            sought: landmark,
+            ..self
+        }
     }
 
     /// Returns the robot.
@@ -68,7 +83,7 @@ impl<R, E> Surveyor<R, E> {
 
 impl<R, E> Surveyor<R, E>
 where
-    R: Robot<Command = TurnTranslate, Error: Error + 'static>,
+    R: SensesLandmarks<Command = TurnTranslate, Error: Error + 'static>,
     R::Sensing: Ranges + Compass + Rolls,
     E: Eye<R::Sensing>,
 {
@@ -161,7 +176,7 @@ where
             turn: (turn / self.config.turn_per_step).clamp(-1.0, 1.0),
             translate: (distance / self.config.translate_per_step).clamp(-1.0, 1.0),
         };
-        self.robot.step(&command).map_err(RoutineError::Robot)?;
+        self.step(&command)?;
         self.steps += 1;
         let rolled = self.robot.sensing().odometry();
         let after = self.heading()?;
@@ -177,6 +192,17 @@ where
         let asked = command.translate * self.config.translate_per_step;
         self.odometer.roll_unseen(asked, before, after)?;
         Ok(asked)
+    }
+
+    /// Makes one time step, and breaks off at the landmark that is sought.
+    fn step(&mut self, command: &TurnTranslate) -> Result<(), RoutineError<R::Error>> {
+        self.robot.step(command).map_err(RoutineError::Robot)?;
+        let here = self.robot.landmark();
+        self.passed = here.or(self.passed);
+        match here {
+            Some(_) if here == self.sought => Err(RoutineError::Found),
+            _ => Ok(()),
+        }
     }
 
     /// Returns the heading, once compass and laser give readings.
@@ -196,7 +222,7 @@ where
         for _ in 0..MOST_SILENT {
             match read(self) {
                 Err(RoutineError::Sense(SenseError::Blind { .. })) => {
-                    self.robot.stop().map_err(RoutineError::Robot)?;
+                    self.step(&TurnTranslate::STOP)?;
                 }
                 told => return told,
             }
@@ -222,7 +248,7 @@ where
 
     /// Ends a routine standing still, and returns the arrival with the view of the place.
     fn arrive(&mut self, outcome: MoveOutcome) -> Result<Arrival, RoutineError<R::Error>> {
-        self.robot.stop().map_err(RoutineError::Robot)?;
+        self.step(&TurnTranslate::STOP)?;
         let moved = self.odometer.moved();
         self.once_told(|this| {
             Ok(Arrival {
@@ -267,7 +293,7 @@ where
 
 impl<R, E> Rover for Surveyor<R, E>
 where
-    R: Robot<Command = TurnTranslate, Error: Error + Send + Sync + 'static>,
+    R: SensesLandmarks<Command = TurnTranslate, Error: Error + Send + Sync + 'static>,
     R::Sensing: Ranges + Compass + Rolls,
     E: Eye<R::Sensing>,
 {
@@ -291,5 +317,13 @@ where
         self.follow(direction)?;
         self.settle(ahead)?;
         self.arrive(MoveOutcome::Arrived)
+    }
+
+    fn landmark(&self) -> Option<Landmark> {
+        self.robot.landmark()
+    }
+
+    fn passed(&self) -> Option<Landmark> {
+        self.passed
     }
 }

@@ -379,15 +379,19 @@ fn known_ring() -> (Observer, Option<PlaceId>) {
     (learner.observer().unwrap().clone(), goal)
 }
 
-fn wayfinder(known: &(Observer, Option<PlaceId>), seed: u64) -> Wayfinder<LaserEye> {
-    let eye = LaserEye { columns: 24 };
-    Wayfinder::new(
-        system(0).config().routines,
-        eye,
-        known.0.clone(),
-        known.1.map(LandmarkSpot::Place),
-        seed,
-    )
+fn wayfinder(known: &(Observer, Option<PlaceId>), seed: u64) -> Diktiometer<LaserEye> {
+    put_down(&known.0, known.1.map(LandmarkSpot::Place), seed)
+}
+
+/// Returns a system that was put down anywhere on a map.
+fn put_down(map: &Observer, goal: Option<LandmarkSpot>, seed: u64) -> Diktiometer<LaserEye> {
+    let (config, eye) = (system(0).config().clone(), LaserEye { columns: 24 });
+    let mut system = Diktiometer::with_map(config, eye, map.clone(), seed);
+    if let Some(goal) = goal {
+        system.remember(Landmark::Goal, goal);
+    }
+    assert_eq!(system.put_down(), Standing::UnderWay);
+    system
 }
 
 /// Points in mid-corridor and at places of the ring.
@@ -407,7 +411,7 @@ fn a_robot_that_was_put_down_anywhere_finds_its_way() {
     for (seed, start) in (0..).zip(STARTS) {
         let mut robot = Landmarked::new(Scripted::new(start, 1.02), at_the_end);
         let mut system = wayfinder(&known, seed);
-        assert!(system.place_belief().is_none());
+        assert!(system.belief().is_empty());
         let task = Task::Reach(Goal::Landmark(Landmark::Goal));
         let mut moves = 0;
         let standing = loop {
@@ -499,10 +503,7 @@ fn a_goal_on_the_way_between_two_places_is_found_again() {
     assert!(near(robot.robot().at, Point::from(PLACES[0])));
 
     let map = learner.observer().unwrap();
-    let finder = |seed| {
-        let routines = learner.config().routines;
-        Wayfinder::new(routines, LaserEye { columns: 24 }, map.clone(), spot, seed)
-    };
+    let finder = |seed| put_down(map, spot, seed);
     for (seed, start) in (0..).zip(STARTS) {
         let mut robot = Landmarked::new(Scripted::new(start, 1.02), amid_the_north);
         let mut finder = finder(seed);

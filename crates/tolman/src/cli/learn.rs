@@ -161,6 +161,12 @@ pub(super) fn carry_out(
         see,
     );
     let truth = been.evidence(&*outing, 0);
+    // The judge has to know where the robot was before, too.
+    let is_known = from.as_ref().is_none_or(|map| map.truth.is_some());
+    let truth = match from.as_ref().and_then(|map| map.truth.clone()) {
+        Some(before) => before.then(truth),
+        None => truth,
+    };
     let text = outing.map_file().map_err(anyhow::Error::from_boxed)?;
     let text = text.map(|text| MapText::with_truth(&text, &truth));
     let text = text.transpose()?;
@@ -176,13 +182,14 @@ pub(super) fn carry_out(
             setup.world
         )));
     };
-    // The judge knows nothing of where the robot was before a map that it continued.
-    let is_judged = task == Task::Explore && setup.from.is_none();
-    let judged =
-        is_judged.then(|| truth.complaint(&outing.map(), outing.course(), system.places()));
     let map = of_text(&arguments.out, text.clone())?;
     let map = system.map(&map).map_err(of_registry)?;
     file::write(&arguments.out, text)?;
+    let judged = (task == Task::Explore && is_known).then(|| {
+        let rule = system.places();
+        let judge = || truth.complaint(&outing.map(), outing.course(), rule);
+        map.judged_apart().unwrap_or_else(judge)
+    });
     // A system that does not claim that its map is whole is not reproached for it.
     let claims = system.claims() || outing.course().is_free();
     let found = judged.clone().flatten();

@@ -103,6 +103,34 @@ fn a_maze_is_surveyed_looked_at_planned_on_and_gone_on_with() {
 }
 
 #[test]
+fn a_map_says_which_diktiometry_learned_it() {
+    let folder = folder("which diktiometry");
+    fs::write(folder.join("ring.maze"), RING).unwrap();
+    let carry_out = |line: &str| tolman_in(&folder, &line.split(' ').collect::<Vec<_>>());
+    let system = |file: &str| {
+        let shown = carry_out(&format!("map show {file} --json")).done();
+        let shown: serde_json::Value = serde_json::from_str(&shown).unwrap();
+        shown["system"].as_str().unwrap().to_owned()
+    };
+    for name in ["diktiometry", "diktiometry-better"] {
+        let learn = format!("learn --system {name} --maze ring.maze --set moves=5");
+        carry_out(&format!("{learn} --out {name}.json")).failed(1, &["wrong or unfinished"]);
+        assert_eq!(system(&format!("{name}.json")), name);
+        let on = format!("learn --system {name} --maze ring.maze --from {name}.json");
+        carry_out(&format!("{on} --set moves=2 --out on.json")).failed(1, &["wrong or unfinished"]);
+        assert_eq!(system("on.json"), name);
+    }
+    // Earlier versions had one name for both, and merged by looks.
+    let better = fs::read_to_string(folder.join("diktiometry-better.json")).unwrap();
+    let former = better.replacen("diktiometry-better", "diktiometry", 1);
+    fs::write(folder.join("former.json"), former).unwrap();
+    assert_eq!(system("former.json"), "diktiometry-better");
+    let on = "learn --maze ring.maze --from former.json --set moves=2 --out on.json --system";
+    carry_out(&format!("{on} diktiometry")).refused(2, &["give --system diktiometry-better"]);
+    carry_out(&format!("{on} diktiometry-better")).failed(1, &["wrong or unfinished"]);
+}
+
+#[test]
 fn a_plan_to_where_no_way_is_known_is_a_failure() {
     let folder = folder("no plan");
     fs::write(folder.join("ring.maze"), RING).unwrap();

@@ -1,4 +1,3 @@
-use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
 
 use serde::{Deserialize, Serialize};
@@ -9,28 +8,24 @@ use tolman_maps::diktiometry::{
     Action, DecidingWalk, JournalLength, Link, Observer, OpenPair, PlaceId,
 };
 use tolman_maze::Direction;
-use tolman_robot::{
-    Guess, Landmark, MapView, Mapper, Scan, SensesLandmarks, Standing, Task, VisitNaming,
-};
+use tolman_robot::{Landmark, MapView, Mapper, Task};
 use tolman_sim::Bounds;
 use tolman_systems::diktiometry::{
-    Diktiometer, DiktiometerConfig, LandmarkSpot, LaserEye, Wayfinder,
+    Diktiometer, DiktiometerConfig, ExploreUntil, LandmarkSpot, LaserEye,
 };
 use tolman_systems::stream;
 
-use crate::contest::{Pathfinder, PlaceRule};
+use crate::contest::PlaceRule;
 use crate::course::{Course, Terrain};
 use crate::diktiometry::{
-    Office, OfficeConfig, PlaceCue, Survey, SurveyConfig, SurveyFile, SurveyorConfig, mapper,
-    office_robot,
+    Office, OfficeConfig, PlaceCue, SurveyFile, Surveyed, SurveyorConfig, mapper, office_robot,
 };
-use crate::drawing::diktiometry::map_over_world;
+use crate::drawing::diktiometry::{PlaceMark, map_over_world, place_marks};
 use crate::episode::START_STREAM;
 use crate::registry::{
     LearnedMap, LogMapper, MapText, RobotEntry, RobotKind, Setup, Start, SystemEntry, because,
 };
-use crate::run::InRun;
-use crate::{BoxError, Outing, RobotFacts, Sent};
+use crate::{BoxError, Outing, Sent};
 
 /// The [diktiometry](tolman_systems::diktiometry) on a Pioneer in an office.
 #[derive(Clone, Copy, Debug)]
@@ -61,9 +56,6 @@ const ARENA: &str = "arena";
 
 /// Number of colours of the walls in the arena, for robots with a camera.
 const COLOURS: u32 = 8;
-
-/// Number of moves between two questions whether the map grows without end.
-const ASKED: u32 = 50;
 
 /// The part of this system that needs mazes, for error messages.
 const OFFICE: &str = "the diktiometry's office";
@@ -179,51 +171,30 @@ impl SystemEntry for DiktiometryEntry {
         if setup.start.is_some_and(|start| start != Start::Random) {
             return Err("the diktiometry begins at a random place: leave --start out".into());
         }
-        if let Some(map) = setup.from {
-            let mut before = read(map)?;
-            let going_on: GoingOn = setup.settings.over(&GoingOn {
-                moves: LEARNING.moves,
-                heed: before.config.heed,
-            })?;
-            // The given maze, furnished like the one in which the map was learned.
-            let maze = setup.terrain.maze(OFFICE)?;
-            let office = Office::new(&maze.maze, before.office.config())?;
-            before.office = Arc::new(office.named(setup.world));
-            before.config.heed = going_on.heed;
-            let survey = before.survey(setup.seed)?;
-            return Ok(Box::new(Surveying {
-                survey,
-                moves: going_on.moves,
-                most_steps: setup.steps.unwrap_or(u32::MAX),
-                world: before.origin.world,
-                seed: before.origin.seed,
-                made: 0,
-            }));
-        }
-        let learning: Learning = setup.settings.over(&LEARNING)?;
-        let robot = surveyor(&setup.robot);
-        let mut furniture = OfficeConfig::bare();
-        furniture.doorway_share = learning.doorways;
-        furniture.colours = learning.colours;
-        furniture.seed = setup.seed;
-        let maze = setup.terrain.maze(OFFICE)?;
-        let office = Office::new(&maze.maze, &furniture)?;
-        let office = Arc::new(office.named(setup.world));
-        let mut config = SurveyConfig::of(&office, robot, learning.moves);
-        config.heed = learning.heed;
-        config.mapper.journal = JournalLength::All;
-        if !self.is_paper {
-            config.mapper.restructuring.merge_by_looks_and_turns();
-        }
-        let survey = Survey::new(&office, config, setup.seed)?;
-        Ok(Box::new(Surveying {
-            survey,
-            moves: learning.moves,
-            most_steps: setup.steps.unwrap_or(u32::MAX),
-            world: setup.world.to_owned(),
-            seed: setup.seed,
-            made: 0,
-        }))
+        let (surveyed, observer, moves) = match setup.from {
+            Some(map) => self.gone_on_with(map, setup)?,
+            None => self.begun(setup)?,
+        };
+        let mapper = match &observer {
+            Some(observer) => observer.config().clone(),
+            None => {
+                let mut mapper = mapper(&surveyed.office, &surveyed.robot);
+                mapper.journal = JournalLength::All;
+                if !self.is_paper {
+                    mapper.restructuring.merge_by_looks_and_turns();
+                }
+                mapper
+            }
+        };
+        let (sight, seed) = (surveyed.robot.sight, setup.seed);
+        let mut config = surveyed.office.diktiometer(&surveyed.robot, mapper);
+        (config.heed, config.until) = (surveyed.heed, ExploreUntil::Moves(moves));
+        let system = match observer {
+            Some(observer) => Diktiometer::with_map(config, sight, observer, seed),
+            None => Diktiometer::new(config, sight, seed),
+        };
+        let steps = setup.steps.unwrap_or(u32::MAX);
+        Ok(Box::new(surveyed.sent(system, steps, seed)?))
     }
 
     fn driver(&self, maps: &[MapText], setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
@@ -231,63 +202,81 @@ impl SystemEntry for DiktiometryEntry {
             return Err("the diktiometry drives by one map: give --map once".into());
         };
         let file = read(map)?;
-        let heed = file.config.heed;
-        let Driving { heed } = setup.settings.over(&Driving { heed })?;
-        let SurveyFile {
-            config,
-            past,
-            observer,
-            ..
-        } = &file;
-        // The given maze, furnished like the one in which the map was learned.
-        let maze = setup.terrain.maze(OFFICE)?;
-        let office = Office::new(&maze.maze, file.office.config())?;
-        let office = office.named(setup.world);
-        let robot = &config.robot;
-        let mut routines = robot.routines(office.config().corridor_width);
-        routines.doorway_width = Some(office.config().doorway_width());
-        let steps = setup.steps.unwrap_or(100_000);
         // The goal is where the robot came to it while learning.
         let goal = file.goal();
-        let name = config.robot.name();
-        if let Some(start) = setup.start {
-            let rng = &mut stream(setup.seed, START_STREAM);
-            let random = || Some(office.random_start(&robot.body(), rng));
-            let start = start.on(&office.course, random)?;
-            if !office.is_in_corridor(start.position) {
-                let Point { coords: at, .. } = start.position;
-                return Err(format!(
-                    "({}, {}) m lies between the corridors, which are {} m wide and {} m apart; start in one",
-                    at.x,
-                    at.y,
-                    office.config().corridor_width,
-                    office.config().pitch()
-                )
-                .into());
-            }
-            let body = office_robot(&office, robot, start, setup.seed)?;
-            let map = observer.clone();
-            let system = Wayfinder::new(routines, robot.sight, map, goal, setup.seed);
-            let sent = Sent::new(office.course, body, steps, system).called(name);
-            return Ok(Box::new(sent));
-        }
-        let mut paper = DiktiometerConfig::paper(routines, observer.config().clone());
-        paper.heed = heed;
-        let mut system = Diktiometer::with_map(paper, robot.sight, observer.clone(), setup.seed);
+        let SurveyFile { surveyed, observer } = file;
+        let Driving { heed } = setup.settings.over(&Driving {
+            heed: surveyed.heed,
+        })?;
+        let office = refurnished(&surveyed, setup)?;
+        let robot = &surveyed.robot;
+        let mut config = office.diktiometer(robot, observer.config().clone());
+        config.heed = heed;
+        let steps = setup.steps.unwrap_or(100_000);
+        let name = robot.name();
+        let mut system = Diktiometer::with_map(config, robot.sight, observer, setup.seed);
         if let Some(goal) = goal {
             system.remember(Landmark::Goal, goal);
         }
-        let pose = Pose::new(past.at, Heading::NORTH);
+        let pose = match setup.start {
+            None => Pose::new(surveyed.at, Heading::NORTH),
+            Some(start) => {
+                system.put_down();
+                start_in(&office, robot, start, setup.seed)?
+            }
+        };
         let body = office_robot(&office, robot, pose, setup.seed)?;
         let sent = Sent::new(office.course, body, steps, system).called(name);
         Ok(Box::new(sent))
     }
 
     fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, BoxError> {
+        Ok(Box::new(Learned(read(map)?)))
+    }
+}
+
+impl DiktiometryEntry {
+    /// Returns a new survey and its number of moves.
+    fn begun(self, setup: &Setup<'_>) -> Result<(Surveyed, Option<Observer>, u32), BoxError> {
+        let learning: Learning = setup.settings.over(&LEARNING)?;
+        let robot = surveyor(&setup.robot);
+        let mut furniture = OfficeConfig::bare();
+        furniture.doorway_share = learning.doorways;
+        furniture.colours = learning.colours;
+        furniture.seed = setup.seed;
+        let maze = setup.terrain.maze(OFFICE)?;
+        let office = Office::new(&maze.maze, &furniture)?.named(setup.world);
+        let (office, heed) = (Arc::new(office), learning.heed);
+        let surveyed = Surveyed::begin(setup.world, office, robot, heed, setup.seed)?;
+        Ok((surveyed, None, learning.moves))
+    }
+
+    /// Returns an earlier survey with its map, and the number of moves to add.
+    fn gone_on_with(
+        self,
+        map: &MapText,
+        setup: &Setup<'_>,
+    ) -> Result<(Surveyed, Option<Observer>, u32), BoxError> {
         let file = read(map)?;
-        // Showing a map takes no random numbers.
-        let survey = file.survey(0)?;
-        Ok(Box::new(Surveyed { file, survey }))
+        let system = file.system();
+        if system != self.name() {
+            return Err(
+                format!("{} is a map of {system}: give --system {system}", map.name).into(),
+            );
+        }
+        let SurveyFile {
+            mut surveyed,
+            observer,
+        } = file;
+        let going_on: GoingOn = setup.settings.over(&GoingOn {
+            moves: LEARNING.moves,
+            heed: surveyed.heed,
+        })?;
+        let office = refurnished(&surveyed, setup)?;
+        surveyed.origin.drawing = Some(office.course.drawing());
+        surveyed.office = Arc::new(office);
+        surveyed.heed = going_on.heed;
+        Ok((surveyed, Some(observer), going_on.moves))
     }
 }
 
@@ -344,13 +333,13 @@ impl DiktiometryEntry {
             PlaceCue::Laser { columns } => {
                 let robot = setup.robot.laser_model(made.laser_robot())?;
                 let robot = course.robot_at(pose, robot, seed)?;
-                let system = Pathfinder::learning(paper, LaserEye { columns }, seed);
+                let system = Diktiometer::new(paper, LaserEye { columns }, seed);
                 let sent = Sent::new(course, robot, steps, system);
                 Box::new(sent.keeping_its_view(self.name(), origin))
             }
             _ => {
                 let robot = office_robot(&office, &made, pose, seed)?;
-                let system = Pathfinder::learning(paper, config.sight, seed);
+                let system = Diktiometer::new(paper, config.sight, seed);
                 let sent = Sent::new(course, robot, steps, system);
                 Box::new(sent.keeping_its_view(self.name(), origin))
             }
@@ -358,142 +347,52 @@ impl DiktiometryEntry {
     }
 }
 
-/// A survey in progress. Each of its moves counts as an action.
-struct Surveying {
-    survey: Survey,
-    /// Number of moves to make.
-    moves: u32,
-    /// Number of time steps after which the survey ends in any case.
-    most_steps: u32,
-    world: String,
+/// Returns a start in the corridors of an office.
+fn start_in(
+    office: &Office,
+    robot: &SurveyorConfig,
+    start: Start,
     seed: u64,
-    /// Number of moves made so far.
-    made: u32,
+) -> Result<Pose, BoxError> {
+    let rng = &mut stream(seed, START_STREAM);
+    let random = || Some(office.random_start(&robot.body(), rng));
+    let start = start.on(&office.course, random)?;
+    if !office.is_in_corridor(start.position) {
+        let Point { coords: at, .. } = start.position;
+        return Err(format!(
+            "({}, {}) m lies between the corridors, which are {} m wide and {} m apart; start in one",
+            at.x,
+            at.y,
+            office.config().corridor_width,
+            office.config().pitch()
+        )
+        .into());
+    }
+    Ok(start)
 }
 
-impl InRun for Surveying {
-    fn steps(&self) -> u32 {
-        self.path().len().saturating_sub(1) as u32
-    }
-
-    fn is_out_of_time(&self) -> bool {
-        self.steps() >= self.most_steps
-    }
-}
-
-impl Outing for Surveying {
-    fn course(&self) -> &Course {
-        &self.survey.office().course
-    }
-
-    fn robot(&self) -> RobotFacts {
-        RobotFacts {
-            name: self.survey.config().robot.name(),
-            ..RobotFacts::of(self.survey.robot())
-        }
-    }
-
-    fn path(&self) -> &[Pose] {
-        self.survey.robot().path()
-    }
-
-    fn bumped(&self) -> &[u32] {
-        self.survey.robot().bumped()
-    }
-
-    fn landmark(&self) -> Option<Landmark> {
-        self.survey.robot().landmark()
-    }
-
-    fn scan(&self) -> Option<&Scan> {
-        None
-    }
-
-    fn act(&mut self, task: Task) -> Result<Standing, BoxError> {
-        if task != Task::Explore {
-            return Ok(Standing::gave_up(
-                "a survey ends after all its moves: leave --until out",
-            ));
-        }
-        if self.made == self.moves {
-            return Ok(Standing::Done);
-        }
-        self.survey.step()?;
-        self.made += 1;
-        let observer = self.survey.observer();
-        if self.made.is_multiple_of(ASKED) && observer.grows_without_end() {
-            let complaint = observer.self_check().complaint();
-            return Ok(Standing::gave_up(complaint.unwrap_or_default()));
-        }
-        Ok(Standing::UnderWay)
-    }
-
-    fn words(&self) -> String {
-        format!("at place {}", self.survey.observer().place().0)
-    }
-
-    fn map(&self) -> MapView {
-        Mapper::map(self.survey.observer())
-    }
-
-    fn belief(&self) -> Vec<Guess> {
-        self.survey.observer().belief()
-    }
-
-    fn visit_naming(&self) -> VisitNaming {
-        VisitNaming::EachArrival
-    }
-
-    fn visits(&self) -> Vec<Option<u32>> {
-        let survey = &self.survey;
-        let paths = &survey.observer().map().paths;
-        let visits = survey.visits().iter();
-        visits
-            .map(|visit| Some(paths.resolve(visit.place)?.0))
-            .collect()
-    }
-
-    fn put_down(&mut self, _pose: Pose) -> Result<Standing, BoxError> {
-        Ok(Standing::gave_up(
-            "a survey does not localize: its robot is never moved elsewhere",
-        ))
-    }
-
-    fn sites(&self) -> BTreeMap<u32, Point> {
-        let drawn = self.survey.drawn().into_iter();
-        let middle = |Bounds { min, max }| min + (max - min) * 0.5;
-        drawn
-            .map(|drawn| (drawn.id, middle(drawn.bounds)))
-            .collect()
-    }
-
-    fn map_file(&self) -> Result<Option<String>, BoxError> {
-        let file = SurveyFile::of(&self.world, self.seed, &self.survey);
-        Ok(Some(file.to_json()?))
-    }
-
-    fn doubt(&self) -> Option<String> {
-        self.survey.observer().self_check().complaint()
-    }
-
-    fn trace(&self) -> Result<Vec<u8>, BoxError> {
-        self.survey.robot().trace()
-    }
+/// Returns the given maze, furnished like the one in which a map was learned.
+fn refurnished(surveyed: &Surveyed, setup: &Setup<'_>) -> Result<Office, BoxError> {
+    let maze = setup.terrain.maze(OFFICE)?;
+    Ok(Office::new(&maze.maze, surveyed.office.config())?.named(setup.world))
 }
 
 /// A survey read from a file.
-struct Surveyed {
-    file: SurveyFile,
-    survey: Survey,
+struct Learned(SurveyFile);
+
+impl Learned {
+    fn places(&self) -> Vec<PlaceMark> {
+        place_marks(&self.0.observer, self.0.surveyed.start)
+    }
 }
 
-impl LearnedMap for Surveyed {
+impl LearnedMap for Learned {
     fn lines(&self) -> Vec<String> {
-        let score = self.survey.score();
-        let observer = &self.file.observer;
+        let (observer, score) = (&self.0.observer, self.0.score());
         let first = format!(
-            "{}, {} moves: {} places for {} true ones, purity {:.3}; the robot is at place {}",
-            self.file.origin.world,
+            "{}, {}, {} moves: {} places for {} true ones, purity {:.3}; the robot is at place {}",
+            self.0.system(),
+            self.0.surveyed.origin.world,
             observer.moves(),
             score.places,
             score.visited,
@@ -502,7 +401,7 @@ impl LearnedMap for Surveyed {
         );
         let mut lines = vec![first];
         let paths = &observer.map().paths;
-        for place in self.survey.drawn() {
+        for place in self.places() {
             let links = paths.outgoing(PlaceId(place.id)).map(|(_, link)| link);
             let ways = links.map(|link| format!("{} to {}", direction(link), link.to.0));
             let ways: Vec<String> = ways.collect();
@@ -514,10 +413,10 @@ impl LearnedMap for Surveyed {
     }
 
     fn json(&self) -> Value {
-        let (file, score) = (&self.file, self.survey.score());
+        let (file, score) = (&self.0, self.0.score());
         let paths = &file.observer.map().paths;
         let links_of = |id: u32| paths.outgoing(PlaceId(id)).map(|(_, link)| link);
-        let drawn = self.survey.drawn();
+        let drawn = self.places();
         let places = drawn.iter().map(|place| {
             let Bounds { min, max } = place.bounds;
             let links: Vec<Value> = links_of(place.id)
@@ -531,8 +430,8 @@ impl LearnedMap for Surveyed {
             })
         });
         json!({
-            "system": "diktiometry-better",
-            "maze": file.origin.world,
+            "system": file.system(),
+            "maze": file.surveyed.origin.world,
             "moves": file.observer.moves(),
             "here": file.observer.place().0,
             "true_places": score.visited,
@@ -544,11 +443,12 @@ impl LearnedMap for Surveyed {
     }
 
     fn drawing(&self, _terrain: &Terrain) -> Result<Drawing, BoxError> {
-        Ok(map_over_world(&self.file.office, &self.survey))
+        let world = &self.0.surveyed.office.course.world;
+        Ok(map_over_world(world, &self.0.observer, &self.places()))
     }
 
     fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, BoxError> {
-        let observer = &self.file.observer;
+        let observer = &self.0.observer;
         let paths = &observer.map().paths;
         let place = |number: u32| {
             paths.resolve(PlaceId(number)).ok_or_else(|| {
@@ -560,7 +460,7 @@ impl LearnedMap for Surveyed {
             })
         };
         let from = from.map_or(Ok(observer.place()), place)?;
-        let (to, beyond) = match (to, self.file.goal()) {
+        let (to, beyond) = match (to, self.0.goal()) {
             (Some(to), _) => (place(to)?, None),
             (None, Some(LandmarkSpot::Place(goal))) => (goal, None),
             (None, Some(LandmarkSpot::Way(last, way))) => (last, Some(way)),
@@ -589,12 +489,18 @@ impl LearnedMap for Surveyed {
     }
 
     fn view(&self) -> Result<MapView, BoxError> {
-        Ok(Mapper::map(&self.file.observer))
+        Ok(Mapper::map(&self.0.observer))
     }
 
     fn course(&self, _world: &str, terrain: &Terrain) -> Result<Course, BoxError> {
         let maze = &terrain.maze(OFFICE)?.maze;
-        Ok(Office::new(maze, self.file.office.config())?.course)
+        Ok(Office::new(maze, self.0.surveyed.office.config())?.course)
+    }
+
+    /// Doorways are true places, and lie between cells.
+    fn judged_apart(&self) -> Option<Option<String>> {
+        let doorways = self.0.surveyed.office.doorways();
+        (doorways > 0).then(|| self.0.complaint(Task::Explore))
     }
 }
 
