@@ -6,8 +6,9 @@ use std::process::Command;
 use anyhow::{Context, Result, ensure};
 use serde_json::Value;
 
-use crate::ci::{Outcome, bare_metal};
-use crate::workspace::{cargo, installed, output, root, succeed, target_folder};
+use crate::ci::Outcome;
+use crate::ci::bare_metal::{self, Compiler};
+use crate::workspace::{cargo, output, root, succeed, target_folder};
 
 /// Folder of the package. Its settings of cargo name the chip and the emulator.
 const FOLDER: &str = "crates/firmware/board";
@@ -35,38 +36,19 @@ struct Needs {
     lost: u64,
 }
 
-/// Says what the mouse needs, or why that cannot be found out.
-///
-/// # Errors
-/// As [`check`].
-pub(crate) fn run() -> Result<()> {
-    if let Outcome::Skipped(why) = check()? {
-        eprintln!("skipped: {why}");
-    }
-    Ok(())
-}
-
 /// Checks the package's form, lints it, runs it, and compares what the mouse needs with what it may
 /// need.
 ///
 /// # Errors
 /// If it does not build, fails, or needs more.
 pub(crate) fn check() -> Result<Outcome> {
-    for program in ["qemu-system-arm", "size"] {
-        if !installed(program) {
-            return Ok(Outcome::Skipped(format!("{program} is not installed")));
-        }
-    }
-    if !bare_metal::target_installed()? {
-        return Ok(Outcome::Skipped(bare_metal::missing_target()));
-    }
-    if succeed(&mut here("fetch --locked --quiet")?).is_err() {
-        let why = "the crates it needs cannot be fetched";
-        return Ok(Outcome::Skipped(why.to_owned()));
-    }
-    succeed(here("fmt")?.args(["--", "--check"]))?;
-    succeed(here("clippy --locked --quiet --release")?.args(["--", "--deny", "warnings"]))?;
-    let needs = measured()?;
+    let Some(compiler) = Compiler::found()? else {
+        return Ok(Outcome::Missing(bare_metal::HOW.to_owned()));
+    };
+    succeed(cargo("fmt -- --check").current_dir(root().join(FOLDER)))?;
+    let mut lints = here(compiler, "clippy --locked --quiet --release")?;
+    succeed(lints.args(["--", "--deny", "warnings"]))?;
+    let needs = measured(compiler)?;
     eprintln!(
         "the mouse runs in {} bytes of memory and {} of flash; its longest decision takes {} \
          instructions, {} when it is lost",
@@ -87,8 +69,8 @@ pub(crate) fn check() -> Result<Outcome> {
 }
 
 /// Runs the mouse.
-fn measured() -> Result<Needs> {
-    let lines = output(&mut here("run --locked --quiet --release")?)?;
+fn measured(compiler: Compiler) -> Result<Needs> {
+    let lines = output(&mut here(compiler, "run --locked --quiet --release")?)?;
     let lines = lines
         .lines()
         .map(|line| serde_json::from_str(line).with_context(|| format!("not JSON: {line}")))
@@ -122,8 +104,8 @@ fn flash() -> Result<u64> {
 
 /// Returns a call of cargo in the package's folder. What is compiled incrementally is other code,
 /// which needs more.
-fn here(arguments: &str) -> Result<Command> {
-    let mut command = cargo(arguments);
+fn here(compiler: Compiler, arguments: &str) -> Result<Command> {
+    let mut command = compiler.cargo(arguments);
     command
         .current_dir(root().join(FOLDER))
         .env("CARGO_INCREMENTAL", "0")

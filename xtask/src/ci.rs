@@ -3,6 +3,7 @@
 
 pub(crate) mod bare_metal;
 mod firmware;
+mod licences;
 mod msrv;
 mod outside;
 mod packages;
@@ -12,7 +13,10 @@ use std::env;
 use std::process::Command;
 use std::time::Instant;
 
-use anyhow::{Result, anyhow, bail};
+use anyhow::{Result, bail, ensure};
+use clap::ValueEnum;
+
+use Job::{Golden, Static, Tests, Thorough};
 
 use crate::workspace::{self, built, cargo, installed, succeed};
 use crate::{board, docs, fuzz, golden, layers, mazes, mutants, playground, prose, python, rerun};
@@ -20,82 +24,100 @@ use crate::{board, docs, fuzz, golden, layers, mazes, mutants, playground, prose
 /// Outcome of a step that did not fail.
 pub(crate) enum Outcome {
     Passed,
-    /// The step did not run, for this reason.
-    Skipped(String),
+    /// The step did not run: a tool is missing. Says which one, and how to install it.
+    Missing(String),
 }
 
-type Step = (&'static str, fn() -> Result<Outcome>);
+/// The steps that one machine runs, beside the machines of the other jobs.
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum Job {
+    /// Everything that runs none of the project's code, and the documentation
+    Static,
+    /// Tests, and packages by themselves
+    Tests,
+    /// Golden runs, shown commands, pages in a browser, and the chip
+    Golden,
+    /// What takes too long for every change
+    Thorough,
+}
 
-/// The steps of every run, cheap and telling ones first. Lints, tests and docs have all features
-/// on, so that no feature is missed and everything is compiled once. The plain build, bare metal
-/// and firmware check the builds without features.
+/// A step, and the only job that it belongs to.
+type Step = (&'static str, Job, fn() -> Result<Outcome>);
+
+/// All steps, cheap and telling ones first. Lints, tests and docs have all features on, so that no
+/// feature is missed and everything is compiled once. The program outside, bare metal and firmware
+/// check builds without features.
 const STEPS: &[Step] = &[
-    ("format", || passes("fmt --all --check")),
-    ("layers", || passed(layers::run())),
-    ("prose", || passed(prose::run())),
-    ("links", || passed(docs::pages())),
-    ("lints", || {
+    ("format", Static, || passes("fmt --all --check")),
+    ("layers", Static, || passed(layers::run())),
+    ("prose", Static, || passed(prose::run())),
+    ("links", Static, || passed(docs::pages())),
+    ("spelling", Static, || {
+        with("typos", "pip install typos", || {
+            passed(succeed(&mut typos()))
+        })
+    }),
+    ("licences", Static, || passed(licences::check())),
+    ("advisories", Static, || {
+        with("cargo-deny", "cargo install cargo-deny", advisories)
+    }),
+    ("lints", Static, || {
         passes("clippy --workspace --all-features --all-targets --quiet -- --deny warnings")
     }),
-    ("tests", tests),
-    ("doc tests", || {
+    ("api docs", Static, || passed(docs::api())),
+    ("msrv", Static, msrv::check),
+    ("tests", Tests, tests),
+    ("doc tests", Tests, || {
         passes("test --workspace --all-features --doc --quiet")
     }),
-    // The tests have just built the command.
-    ("mazes", || passed(mazes::check_with(|| built("tolman")))),
+    ("package", Tests, || passed(packages::one())),
+    ("outside", Tests, || passed(outside::check())),
+    ("mazes", Golden, || passed(mazes::check_with(command))),
+    ("golden", Golden, || {
+        command()?;
+        passed(golden::run_quick())
+    }),
+    ("commands", Golden, commands),
+    ("browser", Golden, || with_browser(|| passes(BROWSER))),
+    ("firmware", Golden, || {
+        with("nm", "apt-get install binutils", firmware::check)
+    }),
+    ("bare metal", Golden, bare_metal::check),
+    ("board", Golden, || {
+        with(
+            "qemu-system-arm",
+            "apt-get install qemu-system-arm",
+            board::check,
+        )
+    }),
     // The build of a user, without the features that only the steps above switch on.
-    ("plain build", || passes("check --workspace --quiet")),
+    ("plain build", Thorough, || {
+        passes("check --workspace --quiet")
+    }),
     // The members of a workspace switch each other's default features on.
-    ("no parry2d", || {
+    ("no parry2d", Thorough, || {
         passes(
             "clippy --package tolman-sim --no-default-features --all-targets --quiet -- --deny warnings",
         )
     }),
-    ("outside", || passed(outside::check())),
-    ("package", || passed(packages::one())),
-    ("api docs", || passed(docs::api())),
-    ("golden", || passed(golden::run_quick())),
-    ("commands", commands),
-    ("browser", || {
-        if_installed("chromium", || {
-            passes("test --workspace --all-features --test browser --quiet -- --ignored")
-        })
-    }),
-    ("bare metal", bare_metal::check),
-    ("firmware", firmware::check),
-    ("board", board::check),
-    ("msrv", msrv::check),
-    ("licences", || {
-        if_installed("cargo-deny", || {
-            passes("deny --all-features check bans licenses sources")
-        })
-    }),
-    ("advisories", || if_installed("cargo-deny", advisories)),
-    ("spelling", || {
-        if_installed("typos", || passed(succeed(&mut typos())))
-    }),
-];
-
-/// The steps that take too long for every change.
-const THOROUGH: &[Step] = &[
-    ("fuzz", fuzz_targets),
-    ("fuzzing", || passed(fuzz::run(FUZZING, 1, &[]))),
+    ("fuzz", Thorough, fuzz_targets),
+    ("fuzzing", Thorough, || passed(fuzz::run(FUZZING, 1, &[]))),
     // Programs that are killed, or misbehave, again and again.
-    ("endurance", || {
+    ("endurance", Thorough, || {
         passes(
             "test --workspace --all-features --test cli --quiet -- --ignored a_thousand a_hundred",
         )
     }),
-    ("mutants", || mutants::check(MUTANTS, &[])),
-    ("golden, all", || passed(golden::run(&[], false))),
-    ("pages", || if_installed("chromium", all_pages)),
-    ("python", python::check),
-    ("rerun", rerun::check),
-    ("playground", playground::check),
-    ("packages", || passed(packages::all())),
+    ("mutants", Thorough, || mutants::check(MUTANTS, &[])),
+    ("golden, all", Thorough, || passed(golden::run(&[], false))),
+    ("pages", Thorough, || with_browser(all_pages)),
+    ("python", Thorough, python::check),
+    ("rerun", Thorough, rerun::check),
+    ("playground", Thorough, playground::check),
+    ("packages", Thorough, || passed(packages::all())),
     // Every set of a crate's features by itself: the other steps turn on all of them or none.
-    ("features", || {
-        if_installed("cargo-hack", || {
+    ("features", Thorough, || {
+        with("cargo-hack", "cargo install cargo-hack", || {
             passes(
                 "hack clippy --workspace --feature-powerset --exclude-features default --quiet -- --deny warnings",
             )
@@ -103,92 +125,135 @@ const THOROUGH: &[Step] = &[
     }),
 ];
 
+/// The tests that open pages in a browser.
+const BROWSER: &str = "test --workspace --all-features --test browser --quiet -- --ignored";
+
 /// Some thirty changes of the code, spread over all crates that are changed.
 const MUTANTS: mutants::Shard = mutants::Shard { first: 0, of: 400 };
 
 /// Duration of fuzzing all readers, seconds.
 const FUZZING: u64 = 600;
 
-/// Runs all steps, with `thorough` also the long ones; or those of these names, if there are any.
-/// The first failure ends the run unless `keep_going`. After the tests, steps that have not begun
-/// within `minutes` are left out: a slow machine still tells of the most important ones in time.
-///
-/// # Errors
-/// If a step failed, or has no such name.
-pub(crate) fn run(
+/// What to run.
+#[derive(clap::Args)]
+pub(crate) struct Choice {
+    /// Run the remaining steps after one has failed
+    #[arg(long)]
     keep_going: bool,
+    /// Also run the long steps: fuzzing, programs that misbehave or are killed, mutants, the
+    /// slowest golden runs, the Python module, replays for Rerun
+    #[arg(long)]
     thorough: bool,
-    minutes: Option<u64>,
-    names: &[String],
-) -> Result<()> {
-    let start = Instant::now();
-    let mut table: Vec<(&str, Duration, String)> = Vec::new();
-    let mut failures = 0;
-    let steps = chosen(thorough, names)?;
-    for (name, step) in &steps {
-        eprintln!("\n== {name}");
-        let begun = Instant::now();
-        let were_tested = table.iter().any(|(name, ..)| *name == "tests");
-        let is_over = |minutes: &u64| start.elapsed().as_secs() / 60 >= *minutes;
-        let result = match minutes.filter(is_over) {
-            Some(minutes) if were_tested => {
-                Ok(Outcome::Skipped(format!("{minutes} minutes are over")))
-            }
-            _ => step(),
-        };
-        let verdict = match result {
-            Ok(Outcome::Passed) => "ok".to_owned(),
-            Ok(Outcome::Skipped(why)) => format!("skipped: {why}"),
-            Err(error) => {
-                eprintln!("error: {error:#}");
-                failures += 1;
-                "FAILED".to_owned()
-            }
-        };
-        table.push((*name, begun.elapsed(), verdict));
-        if failures > 0 && !keep_going {
-            break;
+    /// Run the steps of this job alone
+    #[arg(long, conflicts_with_all = ["thorough", "steps"])]
+    job: Option<Job>,
+    /// Run this step alone, long or short; may be given several times
+    #[arg(long = "step", value_name = "NAME", value_parser = known)]
+    steps: Vec<String>,
+    /// Pass without this step if its tool is missing; may be given several times. Where CI is set,
+    /// any other step that cannot run is a failure
+    #[arg(long, value_name = "NAME", value_parser = known)]
+    may_miss: Vec<String>,
+}
+
+impl Choice {
+    /// Returns whether a step is to run.
+    fn has(&self, step: &Step) -> bool {
+        match self.job {
+            Some(job) => step.1 == job,
+            None if self.steps.is_empty() => self.thorough || step.1 != Thorough,
+            None => self.steps.iter().any(|name| name == step.0),
         }
     }
+}
+
+/// Returns a step's name, if there is such a step.
+fn known(name: &str) -> Result<String> {
+    let names: Vec<&str> = STEPS.iter().map(|step| step.0).collect();
+    ensure!(names.contains(&name), "steps are: {}", names.join(", "));
+    Ok(name.to_owned())
+}
+
+/// Runs the chosen steps in order. The first failure ends the run unless it is to keep going. Where
+/// CI is set, a step whose tool is missing fails, unless it may be missed.
+///
+/// # Errors
+/// If a step failed, or did not run but must.
+pub(crate) fn run(choice: &Choice) -> Result<()> {
+    let in_ci = env::var_os("CI").is_some();
+    let start = Instant::now();
+    let steps = STEPS.iter().filter(|step| choice.has(step));
+    let mut table = Vec::new();
+    let mut failures = 0;
+    for (name, _, step) in steps {
+        eprintln!("\n== {name}");
+        let begun = Instant::now();
+        let result = if failures == 0 || choice.keep_going {
+            step()
+        } else {
+            let why = "a step before it failed (--keep-going runs it)".to_owned();
+            Ok(Outcome::Missing(why))
+        };
+        if let Err(error) = &result {
+            eprintln!("error: {error:#}");
+        }
+        failures += u32::from(fails(
+            &result,
+            !in_ci || choice.may_miss.iter().any(|may| may == name),
+        ));
+        table.push((*name, begun.elapsed(), result));
+    }
     print_table(&table, start.elapsed());
-    let not_run = steps.len() - table.len();
-    match (failures, not_run) {
-        (0, _) => Ok(()),
-        (_, 0) => bail!("{failures} of {} steps failed", steps.len()),
-        _ => bail!("a step failed, {not_run} more were not run (--keep-going runs them)"),
+    ensure!(
+        failures == 0,
+        "{failures} of {} steps failed or did not run",
+        table.len()
+    );
+    Ok(())
+}
+
+/// Returns whether the result of a step, which may be missed or not, lets the whole run fail.
+fn fails(result: &Result<Outcome>, may_miss: bool) -> bool {
+    match result {
+        Ok(Outcome::Passed) => false,
+        Ok(Outcome::Missing(_)) => !may_miss,
+        Err(_) => true,
     }
 }
 
-/// Returns the steps to run.
-fn chosen(thorough: bool, names: &[String]) -> Result<Vec<&'static Step>> {
-    if names.is_empty() {
-        let long = if thorough { THOROUGH } else { &[] };
-        return Ok(STEPS.iter().chain(long).collect());
-    }
-    let all: Vec<&Step> = STEPS.iter().chain(THOROUGH).collect();
-    let named = |name: &String| {
-        let step = all.iter().find(|(step, _)| step == name).copied();
-        step.ok_or_else(|| {
-            let known: Vec<&str> = all.iter().map(|(step, _)| *step).collect();
-            anyhow!("there is no step `{name}`; steps are: {}", known.join(", "))
-        })
-    };
-    names.iter().map(named).collect()
-}
-
-fn print_table(table: &[(&str, Duration, String)], total: Duration) {
+/// Prints how long each step took, and at the end which did not run.
+fn print_table(table: &[(&str, Duration, Result<Outcome>)], total: Duration) {
     eprintln!();
-    for (name, time, verdict) in table {
-        eprintln!("{name:<11} {:>7.1} s  {verdict}", time.as_secs_f64());
+    for (name, time, result) in table {
+        let told = match result {
+            Ok(Outcome::Passed) => "ok",
+            Ok(Outcome::Missing(_)) => "NOT RUN",
+            Err(_) => "FAILED",
+        };
+        eprintln!("{name:<11} {:>7.1} s  {told}", time.as_secs_f64());
     }
     eprintln!("{:<11} {:>7.1} s", "total", total.as_secs_f64());
+    for (name, _, result) in table {
+        if let Ok(Outcome::Missing(why)) = result {
+            eprintln!("NOT RUN: {name}: {why}");
+        }
+    }
+}
+
+/// Returns the command as the tests build it, all features on, and builds it if they have not.
+pub(crate) fn command() -> Result<Command> {
+    // For the whole workspace, so that it reuses what the tests have compiled.
+    succeed(&mut cargo(
+        "test --workspace --all-features --test commands --no-run --quiet",
+    ))?;
+    built("tolman")
 }
 
 /// Runs the tests with one seed for all property tests, so that only a change decides whether they
 /// pass. Tests run by hand draw a new seed.
 fn tests() -> Result<Outcome> {
     let mut test = cargo(if installed("cargo-nextest") {
-        "nextest run --workspace --all-features --status-level fail"
+        "nextest run --workspace --all-features --lib --bins --tests --status-level fail"
     } else {
         "test --workspace --all-features --lib --bins --tests --quiet"
     });
@@ -197,17 +262,16 @@ fn tests() -> Result<Outcome> {
 
 /// Runs every command that README, pages and help texts show.
 fn commands() -> Result<Outcome> {
-    // For the whole workspace, so that it reuses what the tests have compiled.
     let mut test = cargo("test --workspace --all-features --test commands --quiet -- --ignored");
-    passed(succeed(test.env("TOLMAN", built("tolman")?.get_program())))
+    passed(succeed(test.env("TOLMAN", command()?.get_program())))
 }
 
 /// Compares the dependencies with the list of known weaknesses, where it can be fetched.
 fn advisories() -> Result<Outcome> {
     if let Err(error) = succeed(&mut cargo("deny fetch db")) {
-        return Ok(Outcome::Skipped(format!("no list of weaknesses: {error}")));
+        return Ok(Outcome::Missing(format!("no list of weaknesses: {error}")));
     }
-    passes("deny --all-features check advisories")
+    passes("deny --all-features check advisories bans")
 }
 
 /// Tests the pages that golden runs and shown commands have left, in a browser.
@@ -220,8 +284,9 @@ fn all_pages() -> Result<Outcome> {
             missing.display()
         );
     }
-    let mut test = cargo("test --workspace --all-features --test browser --quiet -- --ignored");
-    passed(succeed(test.env("TOLMAN_PAGES", env::join_paths(folders)?)))
+    passed(succeed(
+        cargo(BROWSER).env("TOLMAN_PAGES", env::join_paths(folders)?),
+    ))
 }
 
 /// Checks that the fuzz targets build. Only running them needs a nightly compiler.
@@ -239,12 +304,27 @@ fn typos() -> Command {
     command
 }
 
-fn if_installed(program: &str, step: fn() -> Result<Outcome>) -> Result<Outcome> {
+/// Runs a step that needs a program, and says how to install it if it is missing.
+pub(crate) fn with(
+    program: &str,
+    how: &str,
+    step: impl Fn() -> Result<Outcome>,
+) -> Result<Outcome> {
     if installed(program) {
         step()
     } else {
-        Ok(Outcome::Skipped(format!("{program} is not installed")))
+        Ok(Outcome::Missing(format!(
+            "{program} is not installed: {how}"
+        )))
     }
+}
+
+fn with_browser(step: fn() -> Result<Outcome>) -> Result<Outcome> {
+    with(
+        "chromium",
+        "apt-get install chromium fonts-dejavu-core",
+        step,
+    )
 }
 
 /// Runs a step that is one cargo command.
@@ -254,4 +334,65 @@ fn passes(arguments: &str) -> Result<Outcome> {
 
 fn passed(done: Result<()>) -> Result<Outcome> {
     done.map(|()| Outcome::Passed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Returns a choice as the command line makes it.
+    fn choice(arguments: &str) -> Choice {
+        #[derive(clap::Parser)]
+        struct Line {
+            #[command(flatten)]
+            choice: Choice,
+        }
+        let words = ["ci"].into_iter().chain(arguments.split_whitespace());
+        <Line as clap::Parser>::parse_from(words).choice
+    }
+
+    fn names(arguments: &str) -> Vec<&'static str> {
+        let choice = choice(arguments);
+        let chosen = STEPS.iter().filter(|step| choice.has(step));
+        chosen.map(|step| step.0).collect()
+    }
+
+    /// Returns the names of the jobs that a change must pass.
+    fn jobs() -> Vec<String> {
+        let jobs = Job::value_variants().iter();
+        let jobs = jobs.filter(|job| **job != Thorough);
+        let names = jobs.filter_map(|job| Some(job.to_possible_value()?.get_name().to_owned()));
+        names.collect()
+    }
+
+    #[test]
+    fn the_jobs_together_are_the_whole_run() {
+        let of_job = |job: &String| {
+            let steps = names(&format!("--job {job}"));
+            assert!(!steps.is_empty(), "{job}");
+            steps
+        };
+        assert_eq!(
+            jobs().iter().flat_map(of_job).collect::<Vec<_>>(),
+            names("")
+        );
+        assert_eq!(names("--thorough").len(), STEPS.len());
+        assert_eq!(names("--step tests"), ["tests"]);
+        assert!(known("test").is_err());
+    }
+
+    #[test]
+    fn the_workflow_runs_every_job() {
+        let text = workspace::read(&workspace::root().join(".github/workflows/ci.yml")).unwrap();
+        assert!(text.contains(&format!("job: [{}]", jobs().join(", "))));
+    }
+
+    #[test]
+    fn a_step_that_must_run_and_did_not_fails() {
+        let missing = Ok(Outcome::Missing("no compiler: buy one".to_owned()));
+        assert!(fails(&missing, false));
+        assert!(!fails(&missing, true));
+        assert!(fails(&Err(anyhow::anyhow!("broken")), true));
+        assert!(!fails(&Ok(Outcome::Passed), false));
+    }
 }

@@ -27,6 +27,8 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use anyhow::{Result, bail};
+use ci::Outcome;
 use clap::{Parser, Subcommand};
 
 /// The chores of the tolman workspace.
@@ -48,21 +50,7 @@ enum Verb {
     },
     /// Runs everything a change must pass: format, lints, tests, pages in a browser, docs, layers,
     /// mazes, bare metal
-    Ci {
-        /// Run the remaining steps after one has failed
-        #[arg(long)]
-        keep_going: bool,
-        /// Also run the long steps: fuzzing, programs that misbehave or are killed, mutants, the
-        /// slowest golden runs, the Python module, replays for Rerun
-        #[arg(long)]
-        thorough: bool,
-        /// Leave out the steps after the tests that have not begun within N minutes, and say so
-        #[arg(long, value_name = "N")]
-        minutes: Option<u64>,
-        /// Run this step alone, long or short; may be given several times
-        #[arg(long = "step", value_name = "NAME")]
-        steps: Vec<String>,
-    },
+    Ci(ci::Choice),
     /// Plays a few runs of every experiment and compares them, to the bit, with those in
     /// tests/golden
     Golden {
@@ -110,11 +98,9 @@ enum Verb {
         /// Crates, such as `tolman-geom`; geom, maze, planners, quantizers and maps if left out
         packages: Vec<String>,
     },
-    /// Builds the Python module, installs it into target/python and runs its tests; skipped with a
-    /// note if Python or a package is missing
+    /// Builds the Python module, installs it into target/python and runs its tests
     Python,
-    /// Tests the package that writes replays for Rerun; skipped with a note if its crates cannot be
-    /// fetched
+    /// Tests the package that writes replays for Rerun
     Rerun,
     /// Builds the playground, a page on which robots learn a maze that the reader draws. Needs a
     /// target of rustc and wasm-bindgen; if one is missing, says how to install it
@@ -131,17 +117,12 @@ enum Verb {
 fn main() -> ExitCode {
     let done = match Arguments::parse().verb {
         Verb::Experiment { arguments } => return experiment::run(&arguments),
-        Verb::Ci {
-            keep_going,
-            thorough,
-            minutes,
-            steps,
-        } => ci::run(keep_going, thorough, minutes, &steps),
+        Verb::Ci(choice) => ci::run(&choice),
         Verb::Golden { names, bless } => golden::run(&names, bless),
         Verb::Layers => layers::run(),
         Verb::Mazes => mazes::run(),
         Verb::Bench { name } => bench::run(name.as_deref()),
-        Verb::Board => board::run(),
+        Verb::Board => alone(board::check()),
         Verb::Prose => prose::run(),
         Verb::Dist => dist::run(),
         Verb::Fuzz {
@@ -149,9 +130,9 @@ fn main() -> ExitCode {
             seed,
             targets,
         } => fuzz::run(seconds, seed, &targets),
-        Verb::Mutants { shard, packages } => mutants::run(shard, &packages),
-        Verb::Python => python::run(),
-        Verb::Rerun => rerun::run(),
+        Verb::Mutants { shard, packages } => alone(mutants::check(shard, &packages)),
+        Verb::Python => alone(python::check()),
+        Verb::Rerun => alone(rerun::check()),
         Verb::Playground { out } => playground::run(out.as_deref()),
         Verb::Docs => docs::run(),
     };
@@ -161,5 +142,13 @@ fn main() -> ExitCode {
             eprintln!("error: {error:#}");
             ExitCode::FAILURE
         }
+    }
+}
+
+/// Runs a step by itself. Then a missing tool is an error.
+fn alone(step: Result<Outcome>) -> Result<()> {
+    match step? {
+        Outcome::Passed => Ok(()),
+        Outcome::Missing(why) => bail!("{why}"),
     }
 }

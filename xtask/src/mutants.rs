@@ -3,8 +3,8 @@
 use anyhow::{Context, Result, ensure};
 use serde_json::Value;
 
-use crate::ci::Outcome;
-use crate::workspace::{cargo, installed, read, target_folder};
+use crate::ci::{Outcome, with};
+use crate::workspace::{cargo, read, target_folder};
 
 /// Crates whose wrong results show nowhere at once, so that only tests find them.
 const PACKAGES: &[&str] = &[
@@ -43,26 +43,20 @@ impl Shard {
     }
 }
 
-/// Tries a share of the changes of these crates, or of all crates. Explains if it cannot.
-///
-/// # Errors
-/// As [`check`].
-pub(crate) fn run(shard: Shard, packages: &[String]) -> Result<()> {
-    if let Outcome::Skipped(why) = check(shard, packages)? {
-        eprintln!("skipped: {why}");
-    }
-    Ok(())
-}
-
-/// Tries a share of the changes, each with the tests of its own crate, in a copy of the workspace.
+/// Tries a share of the changes of these crates, or of all crates, each with the tests of its own
+/// crate, in a copy of the workspace.
 ///
 /// # Errors
 /// If the tests notice too few, or cannot be built.
 pub(crate) fn check(shard: Shard, packages: &[String]) -> Result<Outcome> {
-    if !installed("cargo-mutants") {
-        let why = "cargo-mutants is not installed";
-        return Ok(Outcome::Skipped(why.to_owned()));
-    }
+    with("cargo-mutants", "cargo install cargo-mutants", || {
+        tried(shard, packages)?.check()?;
+        Ok(Outcome::Passed)
+    })
+}
+
+/// Tries the changes.
+fn tried(shard: Shard, packages: &[String]) -> Result<Tried> {
     let folder = target_folder()?.join("mutants");
     let Shard { first, of } = shard;
     let mut mutants = cargo("mutants --baseline skip --all-features --no-shuffle --jobs 1");
@@ -80,10 +74,8 @@ pub(crate) fn check(shard: Shard, packages: &[String]) -> Result<Outcome> {
     // Its exit code says less than its output.
     mutants.status().context("cannot start cargo mutants")?;
     let folder = folder.join("mutants.out");
-    let tried = Tried::of(&read(&folder.join("outcomes.json"))?)?;
     eprint!("{}", read(&folder.join("missed.txt"))?);
-    tried.check()?;
-    Ok(Outcome::Passed)
+    Tried::of(&read(&folder.join("outcomes.json"))?)
 }
 
 /// Result of the changes that compile.

@@ -41,7 +41,7 @@ pub(crate) fn run(out: Option<&Path>) -> Result<()> {
 /// If something does not build, or a test of the page fails.
 pub(crate) fn check() -> Result<Outcome> {
     if let Some(why) = missing()? {
-        return Ok(Outcome::Skipped(why));
+        return Ok(Outcome::Missing(why));
     }
     let file = usual()?;
     build(&file)?;

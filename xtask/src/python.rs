@@ -23,18 +23,6 @@ const WITHOUT_MDP: &[&str] = &["numpy"];
 /// Folder of the crate.
 const CRATE: &str = "crates/python";
 
-/// Tests the module, or explains why it cannot.
-///
-/// # Errors
-/// As [`check`].
-pub(crate) fn run() -> Result<()> {
-    match check()? {
-        Outcome::Passed => eprintln!("the Python module passes its tests"),
-        Outcome::Skipped(why) => eprintln!("skipped: {why}"),
-    }
-    Ok(())
-}
-
 /// Builds the wheel in release, installs it and runs its tests, if Python and its packages are
 /// available.
 ///
@@ -43,13 +31,13 @@ pub(crate) fn run() -> Result<()> {
 pub(crate) fn check() -> Result<Outcome> {
     let Some(system) = system_python() else {
         let why = "there is no Python 3.9 or newer with the module venv (PYTHON names another)";
-        return Ok(Outcome::Skipped(why.to_owned()));
+        return Ok(Outcome::Missing(why.to_owned()));
     };
     let folder = target_folder()?.join("python");
     let environment = Environment { folder: &folder };
     if !environment.program("maturin").exists() && !environment.make(&system)? {
         let why = "the packages it is built and tested with cannot be installed";
-        return Ok(Outcome::Skipped(why.to_owned()));
+        return Ok(Outcome::Missing(why.to_owned()));
     }
     let wheel = environment.wheel()?;
     let mut install = environment.python();

@@ -11,18 +11,6 @@ use crate::workspace::{cargo, succeed, target_folder};
 /// Manifest of the package.
 const MANIFEST: &str = "crates/rerun/Cargo.toml";
 
-/// Tests the package, or explains why it cannot.
-///
-/// # Errors
-/// As [`check`].
-pub(crate) fn run() -> Result<()> {
-    match check()? {
-        Outcome::Passed => eprintln!("replays for Rerun pass their tests"),
-        Outcome::Skipped(why) => eprintln!("skipped: {why}"),
-    }
-    Ok(())
-}
-
 /// Checks the package's form, lints it and tests it, if its crates are present or can be fetched.
 ///
 /// # Errors
@@ -30,7 +18,7 @@ pub(crate) fn run() -> Result<()> {
 pub(crate) fn check() -> Result<Outcome> {
     if succeed(&mut here("fetch --locked --quiet")).is_err() {
         let why = "the crates it needs cannot be fetched";
-        return Ok(Outcome::Skipped(why.to_owned()));
+        return Ok(Outcome::Missing(why.to_owned()));
     }
     succeed(here("fmt").args(["--", "--check"]))?;
     let mut lints = here("clippy --locked --quiet --all-targets --target-dir");

@@ -6,7 +6,7 @@ use anyhow::{Result, ensure};
 use serde_json::Value;
 
 use super::Outcome;
-use crate::workspace::{cargo, installed, output};
+use crate::workspace::{cargo, output};
 
 /// Name of the package that combines the `no_std` crates.
 const FIRMWARE: &str = "tolman-firmware";
@@ -24,9 +24,6 @@ const BANNED: [&str; 6] = [
 /// Builds the firmware for this machine, optimized, and checks the undefined symbols of it and of
 /// the project's crates below it.
 pub(super) fn check() -> Result<Outcome> {
-    if !installed("nm") {
-        return Ok(Outcome::Skipped("nm is missing: install binutils".into()));
-    }
     // With link-time optimization the libraries would not hold machine code yet.
     let messages = output(
         cargo("build --quiet --release --message-format json --no-default-features --package")

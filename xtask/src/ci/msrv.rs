@@ -26,7 +26,7 @@ pub(super) fn check() -> Result<Outcome> {
             .next()
             .is_some_and(|version| is_of(version, &stated))
     }) else {
-        return Ok(Outcome::Skipped(format!(
+        return Ok(Outcome::Missing(format!(
             "rust-version = \"{stated}\", this is rustc {here}: rustup toolchain add {stated}"
         )));
     };
