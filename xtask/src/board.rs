@@ -6,8 +6,7 @@ use std::process::Command;
 use anyhow::{Context, Result, ensure};
 use serde_json::Value;
 
-use crate::ci::Outcome;
-use crate::ci::bare_metal::{self, Compiler};
+use crate::ci::{Outcome, bare_metal, with};
 use crate::workspace::{cargo, output, root, succeed, target_folder};
 
 /// Folder of the package. Its settings of cargo name the chip and the emulator.
@@ -42,13 +41,15 @@ struct Needs {
 /// # Errors
 /// If it does not build, fails, or needs more.
 pub(crate) fn check() -> Result<Outcome> {
-    let Some(compiler) = Compiler::found()? else {
-        return Ok(Outcome::Missing(bare_metal::HOW.to_owned()));
-    };
-    succeed(cargo("fmt -- --check").current_dir(root().join(FOLDER)))?;
-    let mut lints = here(compiler, "clippy --locked --quiet --release")?;
-    succeed(lints.args(["--", "--deny", "warnings"]))?;
-    let needs = measured(compiler)?;
+    with("qemu-system-arm", "apt-get install qemu-system-arm", || {
+        bare_metal::with_target(run)
+    })
+}
+
+fn run() -> Result<Outcome> {
+    succeed(here("fmt")?.args(["--", "--check"]))?;
+    succeed(here("clippy --locked --quiet --release")?.args(["--", "--deny", "warnings"]))?;
+    let needs = measured()?;
     eprintln!(
         "the mouse runs in {} bytes of memory and {} of flash; its longest decision takes {} \
          instructions, {} when it is lost",
@@ -69,8 +70,8 @@ pub(crate) fn check() -> Result<Outcome> {
 }
 
 /// Runs the mouse.
-fn measured(compiler: Compiler) -> Result<Needs> {
-    let lines = output(&mut here(compiler, "run --locked --quiet --release")?)?;
+fn measured() -> Result<Needs> {
+    let lines = output(&mut here("run --locked --quiet --release")?)?;
     let lines = lines
         .lines()
         .map(|line| serde_json::from_str(line).with_context(|| format!("not JSON: {line}")))
@@ -104,8 +105,8 @@ fn flash() -> Result<u64> {
 
 /// Returns a call of cargo in the package's folder. What is compiled incrementally is other code,
 /// which needs more.
-fn here(compiler: Compiler, arguments: &str) -> Result<Command> {
-    let mut command = compiler.cargo(arguments);
+fn here(arguments: &str) -> Result<Command> {
+    let mut command = cargo(arguments);
     command
         .current_dir(root().join(FOLDER))
         .env("CARGO_INCREMENTAL", "0")

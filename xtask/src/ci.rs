@@ -83,13 +83,7 @@ const STEPS: &[Step] = &[
         with("nm", "apt-get install binutils", firmware::check)
     }),
     ("bare metal", Golden, bare_metal::check),
-    ("board", Golden, || {
-        with(
-            "qemu-system-arm",
-            "apt-get install qemu-system-arm",
-            board::check,
-        )
-    }),
+    ("board", Golden, board::check),
     // The build of a user, without the features that only the steps above switch on.
     ("plain build", Thorough, || {
         passes("check --workspace --quiet")
