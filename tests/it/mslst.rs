@@ -119,7 +119,7 @@ fn files_that_hold_no_map_say_why() {
     for (from, to, expected) in [
         ("{", "", "line 1 column"),
         ("tolman-map", "soup", "\"soup\""),
-        ("\"version\":2", "\"version\":9", "version is 9"),
+        ("\"version\":3", "\"version\":9", "version is 9"),
         (
             "\"nodes\":[{\"state\":",
             "\"nodes\":[{\"state\":99",

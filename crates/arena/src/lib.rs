@@ -13,7 +13,8 @@
 //! [`micromouse`] is a paper's mouse and its referee; in the [`competition`] a micromouse explores
 //! a maze for its speed run. [`gngslam`] has the arenas and the data of the place map.
 //! [`bump_walk`] is a robot that only feels walls, and the judge of its map. [`log_score`] judges
-//! ways that were found from logs. [`drawing`] draws maps over worlds. [`mms`] is the protocol of the simulator of that name;
+//! ways that were found from logs. [`drawing`] draws maps over worlds.
+//! [`mms`] is the protocol of the simulator of that name;
 //! [`foreign`] runs foreign programs under supervision.
 //!
 //! # Who learns a maze

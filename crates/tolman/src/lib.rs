@@ -1,7 +1,9 @@
 //! The application: it combines robots, systems, worlds and tables, and is the `tolman` command.
 //!
 //! A [`Catalogue`] lists what the command knows by name, and [`run`] is the command. To add a
-//! [system](registry::SystemEntry), a robot or an experiment of your own, write a program that adds it to the
+//! [system](registry::SystemEntry), a robot or an experiment of your own, write a program that adds
+//! it
+//! to the
 //! catalogue:
 //!
 //! ```no_run

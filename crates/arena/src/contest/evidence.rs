@@ -3,6 +3,7 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 use tolman_geom::Point;
 use tolman_maze::Cell;
 use tolman_robot::{MapPlace, MapView, VisitNaming};
@@ -101,6 +102,13 @@ impl TrueVisits {
     }
 }
 
+/// Reason why a map cannot be judged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+#[error(
+    "nobody knows the true places of a world with free walls, and the map has no positions: drive by it with `tolman drive`"
+)]
+pub struct NoTruth;
+
 /// Limit of the places' error in a right map of a free world, root mean square, m.
 const MOST_ERROR: f64 = 0.5;
 
@@ -151,25 +159,32 @@ impl Evidence {
     /// stop; `None` if it is right.
     ///
     /// In a maze the [judgement](Self::judge) decides. A world of free walls has no graph of cells.
-    /// There the places have to lie where they truly are, as far as the map has positions, and have
-    /// to cover the floor. O(cells · places).
-    #[must_use]
-    pub fn complaint(&self, map: &MapView, course: &Course, rule: PlaceRule) -> Option<String> {
+    /// There the places have to lie where they truly are, and to cover the floor. O(cells ·
+    /// places).
+    ///
+    /// # Errors
+    /// [`NoTruth`] in a world of free walls if the map has no positions.
+    pub fn complaint(
+        &self,
+        map: &MapView,
+        course: &Course,
+        rule: PlaceRule,
+    ) -> Result<Option<String>, NoTruth> {
         if !course.is_free() {
             let truth = TrueGraph::of(&course.maze, rule);
-            return self.judge(map, &truth).complaint();
+            return Ok(self.judge(map, &truth).complaint());
         }
         let founded: BTreeMap<u32, Point> = (self.founded.iter())
             .map(|(place, at)| (*place, Point::from(*at)))
             .collect();
         let both = |place: &MapPlace| Some((place.position?, *founded.get(&place.id)?));
         let (places, sites): (Vec<Point>, Vec<Point>) = map.places.iter().filter_map(both).unzip();
-        let laid = LaidOver::of_places(places.into_iter(), &sites);
-        if let Some(laid) = laid.filter(|laid| laid.error_m > MOST_ERROR) {
-            return Some(format!(
+        let laid = LaidOver::of_places(places.into_iter(), &sites).ok_or(NoTruth)?;
+        if laid.error_m > MOST_ERROR {
+            return Ok(Some(format!(
                 "its places lie {:.1} m from where they truly are: try another --seed",
                 laid.error_m
-            ));
+            )));
         }
         let cells: Vec<Point> = course
             .starts()
@@ -178,11 +193,11 @@ impl Evidence {
         let is_near = |cell: &&Point| founded.values().any(|at| (at - **cell).norm() <= NEAR);
         let covered = cells.iter().filter(is_near).count();
         let share = covered as f64 / cells.len().max(1) as f64;
-        (share < LEAST_COVERED).then(|| {
+        Ok((share < LEAST_COVERED).then(|| {
             format!(
                 "it has places near {:.0} % of the floor alone: learn longer",
                 100.0 * share
             )
-        })
+        }))
     }
 }

@@ -1,6 +1,7 @@
 //! Sends every system into every kind of world, and judges all systems by the same truth.
 //!
-//! A [`Contest`] sends one [system](crate::registry::SystemEntry) into one drawing. The contestant learns. It is put down
+//! A [`Contest`] sends one [system](crate::registry::SystemEntry) into one drawing. The contestant
+//! learns. It is put down
 //! somewhere and localizes; then it is put down somewhere else and drives to the goal. Its map is
 //! compared with the drawing's [`TrueGraph`], which it never sees.
 //! A [`SteppedContest`] is played action by action.
@@ -24,7 +25,7 @@ mod whereabouts;
 pub use claim::Claim;
 pub use condition::Condition;
 pub(crate) use condition::with_door;
-pub use evidence::{Evidence, TrueVisits};
+pub use evidence::{Evidence, NoTruth, TrueVisits};
 pub use judgement::MapJudgement;
 pub use play::{
     Contest, ContestError, ContestRecord, Home, LearnRecord, LocateOutcome, Located, Moment,

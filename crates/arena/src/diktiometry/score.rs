@@ -56,7 +56,8 @@ pub struct MapScore {
 /// A true way: a site and a direction.
 type Way = (u32, Direction);
 
-/// Scores a map; `None` is an empty one. `visits` are all places the robot was at, from the first on; `gone` are the ways
+/// Scores a map; `None` is an empty one. `visits` are all places the robot was at, from the first
+/// on; `gone` are the ways
 /// it took; `truth` are the places now. Action n of the map is direction n of [`Direction::ALL`].
 /// O(visits · log places + links · log links).
 #[must_use]

@@ -84,7 +84,11 @@ impl MapText {
         let truth = self.truth.as_ref();
         let truth =
             truth.ok_or("the file does not say where the robot truly was: learn it again")?;
-        Ok(truth.complaint(&map.view()?, &course, system.places()))
+        match truth.complaint(&map.view()?, &course, system.places()) {
+            Ok(complaint) => Ok(complaint),
+            // The map's own account is left.
+            Err(unknown) => map.doubt().map(Some).ok_or_else(|| unknown.into()),
+        }
     }
 }
 
@@ -123,7 +127,13 @@ pub trait LearnedMap {
         Err("such a map cannot be checked".into())
     }
 
-    /// Returns the judgement of a map of a world whose true places are not cells: `Some(None)` if it
+    /// Returns why the map may be wrong or unfinished by its own account; `None` without a reason.
+    fn doubt(&self) -> Option<String> {
+        None
+    }
+
+    /// Returns the judgement of a map of a world whose true places are not cells: `Some(None)` if
+    /// it
     /// is right, or why not; `None` for all other maps.
     fn judged_apart(&self) -> Option<Option<String>> {
         None

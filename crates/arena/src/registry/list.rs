@@ -50,7 +50,7 @@ impl Registry {
         PROGRAM.set(self).map_err(Box::new)
     }
 
-    /// Returns the system of this name, as typed or as in tables; `None` if there is none. O(systems).
+    /// Returns the system of this name, as typed or as in tables; `None` if there is none.
     #[must_use]
     pub fn system(&self, name: &str) -> Option<&'static dyn SystemEntry> {
         let named = |system: &&&'static dyn SystemEntry| {

@@ -187,13 +187,23 @@ pub(super) fn carry_out(
     file::write(&arguments.out, text)?;
     let judged = (task == Task::Explore && is_known).then(|| {
         let rule = system.places();
-        let judge = || truth.complaint(&outing.map(), outing.course(), rule);
-        map.judged_apart().unwrap_or_else(judge)
+        let judge = || truth.complaint(&outing.map(), outing.course(), rule).ok();
+        map.judged_apart().or_else(judge)
     });
+    let judged = judged.flatten();
     // A system that does not claim that its map is whole is not reproached for it.
     let claims = system.claims() || outing.course().is_free();
     let found = judged.clone().flatten();
     let complaint = own.or_else(|| found.clone().filter(|_| claims));
+    // In such a world nothing else was to be expected.
+    let unfit = match outing.course().is_free() {
+        true => None,
+        false => system.abstains(&outing.course().maze),
+    };
+    let complaint = match (complaint, unfit) {
+        (Some(complaint), Some(unfit)) => Some(format!("{complaint}; {unfit}")),
+        (complaint, _) => complaint,
+    };
     if arguments.looks.json {
         let json = json!({
             "system": system.name(),

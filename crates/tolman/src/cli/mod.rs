@@ -153,12 +153,12 @@ impl App<'_> {
         }
         let fit = self.registry().systems.iter();
         let fit = fit.filter(|system| is_fit(**system));
-        let what = match named {
-            Some(_) => "does not do this",
-            None => "is not a system",
+        let fault = match named {
+            Some(_) => format!("{name} does not do this"),
+            None => format!("there is no system {name}"),
         };
         Err(Failure::BadInput(anyhow!(
-            "{name} {what}; {}",
+            "{fault}; {}",
             choices(name, fit.map(|system| system.name()))
         )))
     }

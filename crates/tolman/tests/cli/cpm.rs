@@ -95,9 +95,9 @@ fn a_map_is_learned_looked_at_and_driven_by() {
     fs::write(folder.join("none.json"), "{}").unwrap();
     let none = ["none.json: this is not a learned map", "tolman learn"];
     tolman_in(&folder, &["map", "show", "none.json"]).refused(2, &none);
-    let later = text.replace("\"version\":2", "\"version\":3");
+    let later = text.replace("\"version\":3", "\"version\":4");
     fs::write(folder.join("later.json"), later).unwrap();
-    let refused = ["version is 3", "update tolman"];
+    let refused = ["version is 4", "update tolman"];
     tolman_in(&folder, &["map", "show", "later.json"]).refused(2, &refused);
     let former = r#"{"format":"tolman-cpm","version":2,"system":"faithful"}"#;
     fs::write(folder.join("former.json"), former).unwrap();
@@ -135,7 +135,11 @@ fn a_robot_that_knows_two_mazes_is_put_down_anywhere_in_one() {
     for (maze, seed, out) in learned {
         let learn = ["learn", "--system", "cpm-better"];
         let of = ["--maze", maze, "--seed", seed, "--out", out];
-        tolman_in(&folder, &[&learn[..], &of[..]].concat()).done();
+        let preset = match out {
+            "other.json" => ["--preset", "unlearned"],
+            _ => ["--preset", "learned"],
+        };
+        tolman_in(&folder, &[&learn[..], &of[..], &preset[..]].concat()).done();
     }
     let solve = |more: &[&str]| {
         let solve = ["drive", "--maze", "fork.maze", "--map", "fork.json"];
@@ -154,9 +158,9 @@ fn a_robot_that_knows_two_mazes_is_put_down_anywhere_in_one() {
     let taken = "fork.json is taken for the map";
     assert!(told.contains(taken), "{told}");
     let told = solve(&["--start", "0.125,0.375,80"]).done();
-    assert!(told.contains("cpm is done"), "{told}");
+    assert!(told.contains("cpm-better is done"), "{told}");
 
-    solve(&["--map", "other.json"]).refused(2, &["other.json", "other patterns", "--seed"]);
+    solve(&["--map", "other.json"]).refused(2, &["other.json", "other patterns", "unlearned"]);
     solve(&["--start", "0.25,0.3"]).refused(2, &["does not fit"]);
     solve(&["--start", "9,9"]).refused(2, &["no way leads from (9, 9) m"]);
     solve(&["--start", "somewhere"]).refused(2, &["expected random, marked"]);
@@ -203,7 +207,7 @@ fn a_maze_without_junctions_is_learned_and_driven() {
     fs::write(folder.join("corridor.maze"), corridor).unwrap();
     tolman_in(&folder, &learn("corridor.maze")).done();
     let told = tolman_in(&folder, &drive("map.json", "corridor.maze")).done();
-    assert!(told.contains("cpm is done"), "{told}");
+    assert!(told.contains("cpm-better is done"), "{told}");
     // By this map the first fragment leads to the goal; there it leads to a junction.
     let junction = "name = Junction\nstart = 0 0 north\n\no---o---o\n|   | G |\no   o   o\n|       |\no   o   o\n| S |   |\no---o---o\n";
     fs::write(folder.join("junction.maze"), junction).unwrap();
@@ -263,7 +267,7 @@ fn a_map_with_other_fragments_than_there_are_is_told() {
     let explore = [&learn("room.maze")[..], &["--until", "explored"]].concat();
     let told = [
         "the map in map.json is wrong or unfinished",
-        "fragments for the 6 of the maze, which has an open room at cell 2, 1",
+        "there is an open square of 2 × 2 cells",
     ];
     tolman_in(&folder, &explore).failed(1, &told);
 }
@@ -282,9 +286,9 @@ fn a_map_of_another_robot_or_maze_is_refused_or_fails_as_it_is_said() {
     let other = format!("{}{}{}", &text[..at], "0123456789abcdef", &text[at + 16..]);
     fs::write(folder.join("other.json"), other).unwrap();
     solve("other.json", "fork.maze").refused(2, &["other.json", "fingerprint", "changed"]);
-    let later = text.replace("\"version\":2", "\"version\":3");
+    let later = text.replace("\"version\":3", "\"version\":4");
     fs::write(folder.join("later.json"), later).unwrap();
-    solve("later.json", "fork.maze").refused(2, &["version is 3", "update tolman"]);
+    solve("later.json", "fork.maze").refused(2, &["version is 4", "update tolman"]);
     let crossing = "start = 1 1 north\n\no---o---o---o\n|   | G |   |\no---o   o---o\n|     S     |\no---o   o---o\n|   |   |   |\no---o---o---o\n";
     fs::write(folder.join("crossing.maze"), crossing).unwrap();
     solve("map.json", "crossing.maze").refused(2, &["map.json was learned in Fork"]);

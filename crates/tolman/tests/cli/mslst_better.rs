@@ -60,7 +60,7 @@ fn a_map_is_learned_looked_at_and_driven_by() {
 fn a_map_that_is_unfinished_spoiled_or_of_another_maze_is_told_of() {
     let folder = folder("mslst-better-unfinished");
     fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
-    let few = [&LEARN[..], &["--steps", "3"]].concat();
+    let few = [&LEARN[..], &["--steps", "1"]].concat();
     tolman_in(&folder, &few).failed(1, &["map.json is wrong or unfinished", "--steps"]);
     let check = ["map", "check", "map.json", "--maze", "corridor.maze"];
     tolman_in(&folder, &check).refused(1, &["wrong or unfinished"]);

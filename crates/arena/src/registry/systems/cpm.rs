@@ -413,6 +413,10 @@ impl LearnedMap for MapFile {
         Ok(cpm::view(&self.map))
     }
 
+    fn doubt(&self) -> Option<String> {
+        cpm::doubt(&self.map)
+    }
+
     fn course(&self, _world: &str, terrain: &Terrain) -> Result<Course, BoxError> {
         course_of(self, terrain)
     }

@@ -22,8 +22,9 @@ use crate::diktiometry::{
 };
 use crate::drawing::diktiometry::{PlaceMark, map_over_world, place_marks};
 use crate::episode::START_STREAM;
+use crate::registry::view_file::ViewFile;
 use crate::registry::{
-    LearnedMap, LogMapper, MapText, RobotEntry, RobotKind, Setup, Start, SystemEntry, because,
+    LearnedMap, LogMapper, MapText, RobotEntry, RobotKind, Setup, Start, SystemEntry, because, slug,
 };
 use crate::{BoxError, Outing, Sent};
 
@@ -231,7 +232,11 @@ impl SystemEntry for DiktiometryEntry {
     }
 
     fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, BoxError> {
-        Ok(Box::new(Learned(read(map)?)))
+        // By the preset of the arena it keeps places and links alone.
+        Ok(match ViewFile::read(self.name(), &map.text) {
+            Some(file) => Box::new(file),
+            None => Box::new(Learned(read(map)?)),
+        })
     }
 }
 
@@ -268,6 +273,15 @@ impl DiktiometryEntry {
             mut surveyed,
             observer,
         } = file;
+        if setup.robot.title != surveyed.robot.name() {
+            return Err(format!(
+                "{} was learned by the {}: give --robot {}",
+                map.name,
+                surveyed.robot.name(),
+                slug(surveyed.robot.name())
+            )
+            .into());
+        }
         let going_on: GoingOn = setup.settings.over(&GoingOn {
             moves: LEARNING.moves,
             heed: surveyed.heed,
