@@ -1,15 +1,19 @@
 //! CPM: comparing fragments, exploring, localizing.
 #![expect(clippy::unwrap_used, reason = "a bench that cannot go on fails")]
 
+extern crate alloc;
+
+#[path = "../tests/cpm/world/mod.rs"]
+#[expect(dead_code, unused_imports, reason = "the tests use the rest")]
+mod world;
+
 use core::hint::black_box;
 use criterion::{Criterion, criterion_group, criterion_main};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_arena::cpm::world::{
-    Likeness, MazeConfig, PlaneMaze, PlaneWalker, Reckoning, WalkOutcome, WalkerNoise,
-};
 use tolman_maps::cpm::{Alignment, FragmentMatching, Localizer, LocalizerConfig, Similarity, Turn};
 use tolman_systems::cpm::{Aim, CpmConfig, Explorer, JunctionDecision};
+use world::{Likeness, MazeConfig, PlaneMaze, PlaneWalker, Reckoning, WalkOutcome, WalkerNoise};
 
 fn world(columns: u32, rows: u32) -> PlaneMaze {
     let mut rng = ChaCha8Rng::seed_from_u64(1);

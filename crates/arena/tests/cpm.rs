@@ -11,4 +11,5 @@ mod cpm {
     mod matching;
     mod targets;
     mod walks;
+    mod world;
 }

@@ -4,12 +4,12 @@ use tolman_maps::cpm::theorem_1;
 use tolman_maze::Maze;
 use tolman_systems::cpm::{Aim, Done, FragmentStep, Layer3, Walker};
 
+use super::covering_walk::covering_walk;
 use super::fragments::TrueFragments;
 use super::pursue::pursue;
 use super::robots::SimulatedEpuck;
 use super::score::Score;
 use super::trial::{CpmTrial, CpmTrialError};
-use super::world::shortest_covering_walk;
 
 /// A maze explored to its end: "the task is to obtain the complete map" (section 6).
 #[derive(Clone, Debug, Default)]
@@ -94,7 +94,7 @@ impl CpmTrial<'_> {
 fn best_walk(maze: &Maze) -> Option<u32> {
     let (start, _) = maze.start()?;
     let ways = TrueFragments::of(maze).graph(maze, |_| Some(1));
-    let best = shortest_covering_walk(&ways, maze.grid().index(start) as u32);
+    let best = covering_walk(&ways, maze.grid().index(start) as u32);
     // No walk leads out of a start that is walled in.
     best.filter(|fragments| *fragments > 0)
 }

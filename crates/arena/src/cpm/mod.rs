@@ -4,13 +4,13 @@
 //! A [`CpmTrial`] plays both episodes on a [course](epuck_course) and scores them by its
 //! [`TrueFragments`]. A [`Layout`] says where the parts of a map lie. An [`Exploration`] is a maze
 //! walked to its end. A [`PutDown`] is a trial of a robot that has to find out where it is. A
-//! [`RoundTrip`] is the way to the goal, back by untried fragments, and there again. [`world`] has
-//! mazes without a robot.
+//! [`RoundTrip`] is the way to the goal, back by untried fragments, and there again.
 
 #[cfg(test)]
 mod adversity;
 mod bends;
 mod course;
+mod covering_walk;
 mod distinctness;
 mod exploration;
 mod fragments;
@@ -30,10 +30,10 @@ mod survey;
 mod trial;
 #[cfg(test)]
 mod wire;
-pub mod world;
 
 pub use bends::BendLikeness;
 pub use course::{CORRIDOR_WIDTH, epuck_course, epuck_course_on};
+pub use covering_walk::covering_walk;
 pub use distinctness::{Distinctness, WalkPair, distinctness};
 pub use exploration::Exploration;
 pub(crate) use fragments::landmark_at;

@@ -2,10 +2,6 @@
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_arena::cpm::world::{
-    MapCheck, MazeConfig, MazeConfigError, PlaneMaze, PlaneMazeError, PlaneWalker, Reckoning,
-    WalkerNoise, WorldBuilder,
-};
 use tolman_geom::Point;
 use tolman_maps::cpm::{
     Bearings, CpmError, Dictionary, DictionaryError, Environments, PatternId, RecallError,
@@ -16,6 +12,10 @@ use tolman_systems::cpm::{Aim, CpmConfig, Done, Explorer};
 
 use super::explorations::pursue;
 use super::walks::dictionary;
+use super::world::{
+    MapCheck, MazeConfig, MazeConfigError, PlaneMaze, PlaneMazeError, PlaneWalker, Reckoning,
+    WalkerNoise, WorldBuilder,
+};
 
 const CONFIGS: [fn() -> CpmConfig; 2] = [CpmConfig::online, CpmConfig::robust];
 

@@ -5,14 +5,15 @@ use alloc::collections::BTreeSet;
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_arena::cpm::world::{
-    Likeness, MapCheck, MazeConfig, PlaneMaze, PlaneWalker, Reckoning, WalkOutcome, WalkerNoise,
-};
 use tolman_maps::cpm::{
     Candidates, Dictionary, JunctionId, MapUpdate, Mapping, PatternId, theorem_1,
 };
 use tolman_robot::Landmark;
 use tolman_systems::cpm::{Aim, CpmConfig, Done, Explorer, JunctionDecision, Leg, Onward};
+
+use super::world::{
+    Likeness, MapCheck, MazeConfig, PlaneMaze, PlaneWalker, Reckoning, WalkOutcome, WalkerNoise,
+};
 
 /// Lets an explorer pursue an aim.
 pub(crate) fn pursue(
@@ -84,7 +85,7 @@ proptest! {
             let fragments = world.corridors().len() as u32;
             let bound = theorem_1(&vec![1.0; first as usize], 1.0, fragments);
             prop_assert!(f64::from(until_all) <= bound, "{until_all} of {bound}");
-            if let Some(best) = world.shortest_covering_walk() {
+            if let Some(best) = world.covering_walk() {
                 prop_assert!(explorer.mapper.traversals() >= best);
             }
         }

@@ -3,11 +3,11 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use serde_json::{Value, json};
-use tolman_arena::cpm::world::{MazeConfig, PlaneMaze, PlaneWalker, Reckoning, WalkerNoise};
 use tolman_maps::cpm::{CpMap, Dictionary, MapFile, MapFileError};
 use tolman_systems::cpm::{Aim, CpmConfig, Explorer};
 
 use super::explorations::pursue;
+use super::world::{MazeConfig, PlaneMaze, PlaneWalker, Reckoning, WalkerNoise};
 
 /// Returns the map of an explored world, with dead reckoning.
 fn explored() -> (CpMap, Dictionary) {

@@ -2,10 +2,6 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_arena::cpm::world::{
-    CorridorEnd, Likeness, MazeConfig, PlaneMaze, PlaneWalker, Reckoning, WalkOutcome, WalkerNoise,
-    WorldPort,
-};
 use tolman_maps::cpm::{
     CpMap, Dictionary, DictionaryError, End, Environments, LocalizeError, Localizer,
     LocalizerConfig, Location, PatternId, Port, Sighting, Sign, Traversal, Turn,
@@ -14,6 +10,10 @@ use tolman_robot::Landmark;
 use tolman_systems::cpm::{Aim, CpmConfig, Explorer};
 
 use super::explorations::pursue;
+use super::world::{
+    CorridorEnd, Likeness, MazeConfig, PlaneMaze, PlaneWalker, Reckoning, WalkOutcome, WalkerNoise,
+    WorldPort,
+};
 
 /// A maze, explored.
 struct Known {

@@ -3,11 +3,12 @@
 use proptest::prelude::*;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_arena::cpm::world::{
-    MazeConfig, PlaneMaze, PlaneWalker, Reckoning, WalkOutcome, WalkerNoise, WorldPort,
-};
 use tolman_maps::cpm::{
     Alignment, Dictionary, FragmentMatching, PatternId, Sense, Similarity, Sum, Turn,
+};
+
+use super::world::{
+    MazeConfig, PlaneMaze, PlaneWalker, Reckoning, WalkOutcome, WalkerNoise, WorldPort,
 };
 
 /// Number of a corridor, and the sequence of patterns seen along it.

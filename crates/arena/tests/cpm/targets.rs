@@ -2,12 +2,10 @@
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_arena::cpm::world::{
-    MapCheck, MazeConfig, PlaneMaze, PlaneWalker, Reckoning, WalkerNoise,
-};
 use tolman_systems::cpm::{Aim, CpmConfig, Done, Explorer};
 
 use super::explorations::pursue;
+use super::world::{MapCheck, MazeConfig, PlaneMaze, PlaneWalker, Reckoning, WalkerNoise};
 
 #[derive(Debug, Default)]
 struct Tally {
@@ -37,7 +35,7 @@ impl Tally {
         let check = world.check(explorer.mapper.map(), explorer.mapper.at(), rover.at());
         self.runs += 1;
         self.right += u32::from((done, check) == (Done::Reached, MapCheck::Right));
-        if let Some(best) = world.shortest_covering_walk() {
+        if let Some(best) = world.covering_walk() {
             self.ratio += f64::from(explorer.mapper.traversals()) / f64::from(best);
             self.measured += 1;
         }

@@ -2,9 +2,6 @@
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_arena::cpm::world::{
-    MapCheck, PlaneMaze, PlaneWalker, Reckoning, WalkOutcome, WalkerNoise, WorldBuilder,
-};
 use tolman_geom::Point;
 use tolman_maps::cpm::{
     Dictionary, End, FragmentId, MapUpdate, Mapping, PatternId, Sighting, Sign, Traversal, Turn,
@@ -13,6 +10,9 @@ use tolman_robot::Landmark;
 use tolman_systems::cpm::{Aim, CpmConfig, Done, Explorer, JunctionDecision, Onward};
 
 use super::explorations::pursue;
+use super::world::{
+    MapCheck, PlaneMaze, PlaneWalker, Reckoning, WalkOutcome, WalkerNoise, WorldBuilder,
+};
 
 /// Patterns far from each other; each seen the other way is the next or the one before.
 pub(crate) fn dictionary() -> Dictionary {
@@ -49,6 +49,33 @@ fn end(fragment: u32, sign: Sign) -> End {
         fragment: FragmentId(fragment),
         sign,
     }
+}
+
+/// A dead end in the west, from which a corridor leads to a fork.
+#[test]
+fn a_walker_observes_what_it_walks_along() {
+    let (wall, door) = (PatternId(0), PatternId(4));
+    let mut drawing = WorldBuilder::new(dictionary());
+    let west = drawing.place(Point::new(0.0, 0.0), Some(Landmark::Start));
+    let fork = drawing.place(Point::new(1.0, 0.0), None);
+    let north = drawing.place(Point::new(1.0, 1.0), None);
+    let goal = drawing.place(Point::new(1.0, -1.0), Some(Landmark::Goal));
+    for (from, to, patterns) in [
+        (west, fork, &[wall, wall, door][..]),
+        (fork, north, &[wall, door]),
+        (fork, goal, &[door]),
+    ] {
+        drawing.corridor(from, to, &[], patterns).unwrap();
+    }
+    let world = drawing.finish(west).unwrap();
+    let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, Reckoning::None);
+    let mut rng = ChaCha8Rng::seed_from_u64(0);
+    let arrived = rover.go(Turn::BACK, None, &mut rng).unwrap();
+    let expected = walk(&[wall, wall, door], 3);
+    assert_eq!(arrived, WalkOutcome::Arrived(expected));
+    // Counter-clockwise from the way it came, the first port is the right hand one.
+    rover.go(Turn(1), None, &mut rng).unwrap();
+    assert_eq!(rover.sighting().landmark, Some(Landmark::Goal));
 }
 
 /// Figure 1: A → B → C → D → A closes a loop round a junction of four ports. B lies between two of

@@ -3,25 +3,14 @@ use alloc::vec::Vec;
 
 use tolman_planners::{Graph, steps_from};
 
-use super::{PlaneMaze, WorldPort};
-
-impl PlaneMaze {
-    /// Returns the number of corridors of the shortest walk from the start through all that can be
-    /// reached, ending anywhere. It is the baseline of an exploration, with perfect knowledge.
-    /// `None` if more than 16 places have an odd number of ports, as that would take too long.
-    #[must_use]
-    pub fn shortest_covering_walk(&self) -> Option<u32> {
-        shortest_covering_walk(self, self.start.place)
-    }
-}
-
 /// Returns the number of arcs of the shortest walk from `start` through all that can be reached,
 /// ending anywhere. It is the baseline of an exploration, with perfect knowledge. `None` if more
 /// than 16 places have an odd number of ports, as that would take too long.
 ///
 /// The open Chinese postman's walk: odd places are joined in pairs by shortest ways, walked twice,
 /// except for one, where the walk ends. O(2ⁿ · n) in the number n of odd places.
-pub(in crate::cpm) fn shortest_covering_walk(graph: &impl Graph, start: u32) -> Option<u32> {
+#[must_use]
+pub fn covering_walk(graph: &impl Graph, start: u32) -> Option<u32> {
     let from_start = steps_from(graph, [start]);
     let reached = |place: u32| from_start[place as usize].is_some();
     let numbers = 0..graph.node_count() as u32;
@@ -70,23 +59,4 @@ pub(in crate::cpm) fn shortest_covering_walk(graph: &impl Graph, start: u32) -> 
         }
     }
     (repeated < u32::MAX).then_some(ends / 2 + repeated)
-}
-
-/// Graph of a world's places, with an arc from each to its neighbours along corridors.
-impl Graph for PlaneMaze {
-    fn node_count(&self) -> usize {
-        self.places.len()
-    }
-
-    fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
-        for number in 0..self.sighting(node).degree {
-            let port = WorldPort {
-                place: node,
-                number,
-            };
-            if let Some(beyond) = self.beyond(port) {
-                visit(beyond.place, 1);
-            }
-        }
-    }
 }

@@ -7,7 +7,7 @@ use tolman_maps::cpm::{CpMap, JunctionId, Port};
 
 /// Comparison of a map with the world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MapCheck {
+pub(crate) enum MapCheck {
     /// The map is the world: each place and corridor once, all ports in order.
     Right,
     /// Everything on the map is right and there once; some corridors are missing.
@@ -22,7 +22,7 @@ impl PlaneMaze {
     /// Compares a map with this world, given the robot's position on both. Only corridors that can
     /// be reached count. O(fragments · log fragments).
     #[must_use]
-    pub fn check(&self, map: &CpMap, at: Port, truly_at: WorldPort) -> MapCheck {
+    pub(crate) fn check(&self, map: &CpMap, at: Port, truly_at: WorldPort) -> MapCheck {
         let Some(known) = self.correspondence(map, at, truly_at) else {
             return MapCheck::Wrong;
         };
@@ -42,7 +42,7 @@ impl PlaneMaze {
     /// port 0. The robot's place on both is given. `None` if the map is wrong somewhere.
     /// O(fragments · log fragments).
     #[must_use]
-    pub fn correspondence(
+    pub(crate) fn correspondence(
         &self,
         map: &CpMap,
         at: Port,

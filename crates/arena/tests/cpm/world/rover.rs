@@ -12,23 +12,23 @@ use tolman_systems::cpm::{Aim, Done, Explorer, JunctionDecision, Leg};
 
 /// Errors of a walker's senses.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WalkerNoise {
+pub(crate) struct WalkerNoise {
     /// Probability that an observation is replaced by another random pattern, 0 … 1.
-    pub substitution: f64,
+    pub(crate) substitution: f64,
     /// Probability of an additional random observation after each, 0 to 1.
-    pub insertion: f64,
+    pub(crate) insertion: f64,
     /// Probability that an observation is not made; 0 to 1.
-    pub deletion: f64,
+    pub(crate) deletion: f64,
     /// Slip: maximum error of a fragment's length, as a share of it; 0 to less than 1. The number
     /// of observations changes with it.
-    pub slip: f64,
+    pub(crate) slip: f64,
     /// Maximum error of the believed heading, rad; not negative.
-    pub heading: f64,
+    pub(crate) heading: f64,
 }
 
 impl WalkerNoise {
     /// A rover without errors.
-    pub const NONE: Self = Self {
+    pub(crate) const NONE: Self = Self {
         substitution: 0.0,
         insertion: 0.0,
         deletion: 0.0,
@@ -38,7 +38,7 @@ impl WalkerNoise {
 
     /// Errors like those of the paper's robot, and more: 10 % slip, one observation in ten
     /// mistaken.
-    pub const NOISY: Self = Self {
+    pub(crate) const NOISY: Self = Self {
         substitution: 0.1,
         insertion: 0.03,
         deletion: 0.03,
@@ -49,7 +49,7 @@ impl WalkerNoise {
 
 /// Ways in which a rover counts its steps and looks round.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Reckoning {
+pub(crate) enum Reckoning {
     /// The rover does neither, as in the paper.
     None,
     /// The rover has dead reckoning with bounds that hold, and bearings.
@@ -58,17 +58,16 @@ pub enum Reckoning {
 
 /// A walker in a world.
 #[derive(Clone, Debug)]
-pub struct PlaneWalker<'a> {
+pub(crate) struct PlaneWalker<'a> {
     world: &'a PlaneMaze,
     noise: WalkerNoise,
     reckoning: Reckoning,
     at: WorldPort,
-    observations: u32,
 }
 
 /// Result of a walk.
 #[derive(Clone, Debug, PartialEq)]
-pub enum WalkOutcome {
+pub(crate) enum WalkOutcome {
     /// The rover reached the end of the fragment.
     Arrived(Traversal),
     /// The rover gave up after these observations. It has returned to its place, and the tried port
@@ -79,39 +78,36 @@ pub enum WalkOutcome {
 impl<'a> PlaneWalker<'a> {
     /// Returns a walker at the world's start.
     #[must_use]
-    pub const fn new(world: &'a PlaneMaze, noise: WalkerNoise, reckoning: Reckoning) -> Self {
+    pub(crate) const fn new(
+        world: &'a PlaneMaze,
+        noise: WalkerNoise,
+        reckoning: Reckoning,
+    ) -> Self {
         Self {
             world,
             noise,
             reckoning,
             at: world.start,
-            observations: 0,
         }
     }
 
     /// Returns the true place of the rover: the port behind it.
     #[must_use]
-    pub const fn at(&self) -> WorldPort {
+    pub(crate) const fn at(&self) -> WorldPort {
         self.at
     }
 
     /// Puts the rover down at a place, with the port `at` behind it. A port that does not exist
     /// leaves the rover where it is.
-    pub fn place(&mut self, at: WorldPort) {
+    pub(crate) fn place(&mut self, at: WorldPort) {
         if self.world.end_at(at).is_some() {
             self.at = at;
         }
     }
 
-    /// Returns the number of observations it has made.
-    #[must_use]
-    pub const fn observations(&self) -> u32 {
-        self.observations
-    }
-
     /// Returns the sighting of its present place.
     #[must_use]
-    pub fn sighting(&self) -> Sighting {
+    pub(crate) fn sighting(&self) -> Sighting {
         self.world.sighting(self.at.place)
     }
 
@@ -120,7 +116,7 @@ impl<'a> PlaneWalker<'a> {
     ///
     /// # Errors
     /// If the place has no such turn.
-    pub fn go(
+    pub(crate) fn go(
         &mut self,
         turn: Turn,
         give_up_after: Option<u32>,
@@ -145,12 +141,9 @@ impl<'a> PlaneWalker<'a> {
             && patterns.len() >= most.max(1) as usize
         {
             patterns.truncate(most.max(1) as usize);
-            // There and back.
-            self.observations += 2 * patterns.len() as u32;
             self.at = exit;
             return Ok(WalkOutcome::TurnedBack(patterns));
         }
-        self.observations += patterns.len() as u32;
         self.at = arrival;
         let sighting = self.sighting();
         Ok(WalkOutcome::Arrived(Traversal {
@@ -167,7 +160,7 @@ impl<'a> PlaneWalker<'a> {
     /// # Errors
     /// [`CpmError`] if the explorer decides on a turn that does not exist, or refuses an
     /// observation.
-    pub fn pursue<G: Rng>(
+    pub(crate) fn pursue<G: Rng>(
         &mut self,
         explorer: &mut Explorer,
         aim: Aim,
@@ -196,7 +189,7 @@ impl<'a> PlaneWalker<'a> {
 
     /// Puts the rover into a corridor, entered at an end, after `passed` observations, and lets it
     /// walk on to the other end. Returns `None` if there is no such corridor.
-    pub fn walk_on(
+    pub(crate) fn walk_on(
         &mut self,
         enter: CorridorEnd,
         passed: u32,
@@ -206,7 +199,6 @@ impl<'a> PlaneWalker<'a> {
         let stretch = 1.0 + self.noise.slip * (2.0 * uniform(rng) - 1.0);
         let truth = self.truth(corridor, enter.sign);
         let patterns = self.observe(truth.get(passed as usize..)?, stretch, rng);
-        self.observations += patterns.len() as u32;
         self.at = corridor.port(enter.sign.opposite());
         Some(Traversal {
             patterns,

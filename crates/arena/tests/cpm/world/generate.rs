@@ -13,32 +13,32 @@ use tolman_robot::Landmark;
 /// Parameters of a random world.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub struct MazeConfig {
+pub(crate) struct MazeConfig {
     /// Number of cells from west to east, at least 2.
-    pub columns: u32,
+    pub(crate) columns: u32,
     /// Number of cells from south to north, at least 2.
-    pub rows: u32,
+    pub(crate) rows: u32,
     /// Share of the openings beyond a tree of corridors that exist, 0 to 1.
-    pub loops: f64,
+    pub(crate) loops: f64,
     /// Share of cells with a usable opening across their corner, 0 to 1. With 0, ports have only
     /// four directions; with 1, junctions have up to eight ports.
-    pub diagonals: f64,
+    pub(crate) diagonals: f64,
     /// Common patterns of the dictionary, at least 2; the paper has 31.
-    pub patterns: u32,
+    pub(crate) patterns: u32,
     /// Number of observations along a cell's length, at least 1.
-    pub observations_per_cell: f64,
+    pub(crate) observations_per_cell: f64,
     /// Probability that an observation equals the one before it, 0 to 1. It models walls that go
     /// on.
-    pub persistence: f64,
+    pub(crate) persistence: f64,
     /// Differences between corridors.
-    pub likeness: Likeness,
+    pub(crate) likeness: Likeness,
     /// Share of corridors that look the same from both ends, 0 to 1.
-    pub symmetrical: f64,
+    pub(crate) symmetrical: f64,
 }
 
 /// Differences between the corridors of a random world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Likeness {
+pub(crate) enum Likeness {
     /// "Every path-fragment in the environment is distinctive": f_S < 0.8 for all pairs in both
     /// directions, and, unless they are symmetrical, for each and its inverse.
     Distinctive,
@@ -49,7 +49,7 @@ pub enum Likeness {
 /// Reason why a world cannot be made.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
-pub enum MazeConfigError {
+pub(crate) enum MazeConfigError {
     /// A field of the configuration is outside its range.
     #[error("{field} is {value} but has to be {range}")]
     OutOfRange {
@@ -80,7 +80,7 @@ impl MazeConfig {
     /// Returns a maze like the paper's Maze-3: 4 × 4 cells, junctions of three and four ports, 31
     /// patterns, distinctive.
     #[must_use]
-    pub const fn small() -> Self {
+    pub(crate) const fn small() -> Self {
         Self {
             columns: 4,
             rows: 4,
@@ -97,7 +97,7 @@ impl MazeConfig {
     /// Returns one of the mazes of all sorts: from trees to all possible loops, ports in four
     /// directions or in eight.
     #[must_use]
-    pub fn any(number: u32) -> Self {
+    pub(crate) fn any(number: u32) -> Self {
         Self {
             columns: 3 + number % 2,
             rows: 3 + number / 2 % 2,
@@ -110,7 +110,7 @@ impl MazeConfig {
     /// Returns [one of all sorts](Self::any) whose corridors look alike and whose loops may be
     /// symmetrical.
     #[must_use]
-    pub fn any_alike(number: u32) -> Self {
+    pub(crate) fn any_alike(number: u32) -> Self {
         Self {
             likeness: Likeness::Kinds(1 + number % 3),
             symmetrical: f64::from(number % 4) / 3.0,
@@ -161,7 +161,7 @@ impl PlaneMaze {
     /// # Errors
     /// [`MazeConfigError`] if a field is outside its range or the corridors cannot all be
     /// distinctive.
-    pub fn random(config: &MazeConfig, rng: &mut impl Rng) -> Result<Self, MazeConfigError> {
+    pub(crate) fn random(config: &MazeConfig, rng: &mut impl Rng) -> Result<Self, MazeConfigError> {
         config.check()?;
         let dictionary = random_dictionary(config.patterns, rng)?;
         Self::random_of(dictionary, config, rng)
@@ -172,7 +172,7 @@ impl PlaneMaze {
     ///
     /// # Errors
     /// [`MazeConfigError`] as [`random`](Self::random), or if there are less than two patterns.
-    pub fn random_of(
+    pub(crate) fn random_of(
         dictionary: Dictionary,
         config: &MazeConfig,
         rng: &mut impl Rng,

@@ -5,11 +5,10 @@
 //! corridors' bearings. Its corridors look from each end like a sequence of common patterns. A
 //! [`PlaneWalker`] walks it and reports what an e-puck's lower layers would, with [`WalkerNoise`].
 //! The world tells whether a map is [right](PlaneMaze::check), and the length of the
-//! [shortest walk](PlaneMaze::shortest_covering_walk) through all corridors.
+//! [shortest walk](PlaneMaze::covering_walk) through all corridors.
 
 mod check;
 mod generate;
-mod postman;
 mod rover;
 
 use alloc::vec::Vec;
@@ -17,17 +16,18 @@ use alloc::vec::Vec;
 use thiserror::Error;
 use tolman_geom::{Heading, Point};
 
-pub use check::MapCheck;
-pub use generate::{Likeness, MazeConfig, MazeConfigError};
-pub(super) use postman::shortest_covering_walk;
-pub use rover::{PlaneWalker, Reckoning, WalkOutcome, WalkerNoise};
+pub(crate) use check::MapCheck;
+pub(crate) use generate::{Likeness, MazeConfig, MazeConfigError};
+pub(crate) use rover::{PlaneWalker, Reckoning, WalkOutcome, WalkerNoise};
 
+use tolman_arena::cpm::covering_walk;
 use tolman_maps::cpm::{Dictionary, DictionaryError, PatternId, Sighting, Sign};
+use tolman_planners::Graph;
 use tolman_robot::Landmark;
 
 /// A maze as a plane graph. Its places and corridors are numbered from 0.
 #[derive(Clone, Debug, PartialEq)]
-pub struct PlaneMaze {
+pub(crate) struct PlaneMaze {
     dictionary: Dictionary,
     places: Vec<MazePlace>,
     corridors: Vec<MazeCorridor>,
@@ -36,50 +36,50 @@ pub struct PlaneMaze {
 
 /// A junction, a dead end or a landmark in a corridor.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MazePlace {
+pub(crate) struct MazePlace {
     /// Position, m.
-    pub position: Point,
+    pub(crate) position: Point,
     /// The landmark of the place; `None` without one.
-    pub landmark: Option<Landmark>,
+    pub(crate) landmark: Option<Landmark>,
     /// Ends of corridors at the place, counter-clockwise.
-    pub ports: Vec<CorridorEnd>,
+    pub(crate) ports: Vec<CorridorEnd>,
 }
 
 /// One end of a corridor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct CorridorEnd {
+pub(crate) struct CorridorEnd {
     /// Number of the corridor.
-    pub corridor: u32,
+    pub(crate) corridor: u32,
     /// Sign of the end: *minus* where the corridor's drawing began.
-    pub sign: Sign,
+    pub(crate) sign: Sign,
 }
 
 /// A port of a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct WorldPort {
+pub(crate) struct WorldPort {
     /// Number of the place.
-    pub place: u32,
+    pub(crate) place: u32,
     /// Number of the port at its place, counter-clockwise from 0.
-    pub number: u32,
+    pub(crate) number: u32,
 }
 
 /// A path fragment as it truly is.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MazeCorridor {
+pub(crate) struct MazeCorridor {
     /// Patterns observed from − to +.
-    pub patterns: Vec<PatternId>,
+    pub(crate) patterns: Vec<PatternId>,
     /// Middle line of the corridor, from − to +, both places included, m.
-    pub line: Vec<Point>,
+    pub(crate) line: Vec<Point>,
     /// Port at the − end of the corridor.
-    pub minus: WorldPort,
+    pub(crate) minus: WorldPort,
     /// Port at the + end of the corridor.
-    pub plus: WorldPort,
+    pub(crate) plus: WorldPort,
 }
 
 impl MazeCorridor {
     /// Returns the port of an end.
     #[must_use]
-    pub const fn port(&self, sign: Sign) -> WorldPort {
+    pub(crate) const fn port(&self, sign: Sign) -> WorldPort {
         match sign {
             Sign::Minus => self.minus,
             Sign::Plus => self.plus,
@@ -95,7 +95,7 @@ impl MazeCorridor {
 
     /// Returns the direction in which a robot leaves by an end.
     #[must_use]
-    pub fn bearing(&self, sign: Sign) -> Heading {
+    pub(crate) fn bearing(&self, sign: Sign) -> Heading {
         match (sign, self.line.as_slice()) {
             (Sign::Minus, [here, next, ..]) => Heading::of(*next - *here),
             (Sign::Plus, [.., next, here]) => Heading::of(*next - *here),
@@ -105,40 +105,8 @@ impl MazeCorridor {
 }
 
 /// Draws a world: places, then the corridors between them.
-///
-/// ```
-/// use tolman_geom::Point;
-/// use tolman_maps::cpm::{Dictionary, PatternId, Turn};
-/// use tolman_robot::Landmark;
-/// use tolman_arena::cpm::world::{PlaneWalker, Reckoning, WalkOutcome, WalkerNoise, WorldBuilder};
-///
-/// let mut dictionary = Dictionary::new(1);
-/// let wall = dictionary.learn(&[0.0], &[0.0], 0.1)?;
-/// let door = dictionary.learn(&[1.0], &[1.0], 0.1)?;
-/// // A dead end in the west, from which a corridor leads to a fork.
-/// let mut drawing = WorldBuilder::new(dictionary);
-/// let west = drawing.place(Point::new(0.0, 0.0), Some(Landmark::Start));
-/// let fork = drawing.place(Point::new(1.0, 0.0), None);
-/// let north = drawing.place(Point::new(1.0, 1.0), None);
-/// let goal = drawing.place(Point::new(1.0, -1.0), Some(Landmark::Goal));
-/// drawing.corridor(west, fork, &[], &[wall, wall, door])?;
-/// drawing.corridor(fork, north, &[], &[wall, door])?;
-/// drawing.corridor(fork, goal, &[], &[door])?;
-/// let world = drawing.finish(west)?;
-///
-/// let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, Reckoning::None);
-/// let mut rng = rand_chacha::ChaCha8Rng::from_seed([0; 32]);
-/// let WalkOutcome::Arrived(walk) = rover.go(Turn::BACK, None, &mut rng)? else { panic!() };
-/// assert_eq!(walk.patterns, [wall, wall, door]);
-/// assert_eq!(walk.sighting.degree, 3);
-/// // Counter-clockwise from the way it came, the first port is the right hand one.
-/// rover.go(Turn(1), None, &mut rng)?;
-/// assert_eq!(rover.sighting().landmark, Some(Landmark::Goal));
-/// # use rand::SeedableRng;
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
 #[derive(Clone, Debug)]
-pub struct WorldBuilder {
+pub(crate) struct WorldBuilder {
     dictionary: Dictionary,
     places: Vec<MazePlace>,
     corridors: Vec<MazeCorridor>,
@@ -147,7 +115,7 @@ pub struct WorldBuilder {
 /// Reason why a drawing is not a valid world.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[non_exhaustive]
-pub enum PlaneMazeError {
+pub(crate) enum PlaneMazeError {
     /// A place with this number does not exist.
     #[error("place {place} does not exist, there are {count}: add it first")]
     NoSuchPlace {
@@ -176,7 +144,7 @@ pub enum PlaneMazeError {
 impl WorldBuilder {
     /// Returns an empty sheet.
     #[must_use]
-    pub const fn new(dictionary: Dictionary) -> Self {
+    pub(crate) const fn new(dictionary: Dictionary) -> Self {
         Self {
             dictionary,
             places: Vec::new(),
@@ -185,7 +153,7 @@ impl WorldBuilder {
     }
 
     /// Adds a place and returns its number.
-    pub fn place(&mut self, position: Point, landmark: Option<Landmark>) -> u32 {
+    pub(crate) fn place(&mut self, position: Point, landmark: Option<Landmark>) -> u32 {
         self.places.push(MazePlace {
             position,
             landmark,
@@ -200,7 +168,7 @@ impl WorldBuilder {
     /// # Errors
     /// [`PlaneMazeError`] if a place does not exist, a point is not finite, or a pattern is not in
     /// the dictionary.
-    pub fn corridor(
+    pub(crate) fn corridor(
         &mut self,
         minus: u32,
         plus: u32,
@@ -245,7 +213,7 @@ impl WorldBuilder {
     ///
     /// # Errors
     /// [`PlaneMazeError`] if no corridor leads to a place, or the start is not one.
-    pub fn finish(self, start: u32) -> Result<PlaneMaze, PlaneMazeError> {
+    pub(crate) fn finish(self, start: u32) -> Result<PlaneMaze, PlaneMazeError> {
         let Self {
             dictionary,
             mut places,
@@ -284,31 +252,31 @@ impl WorldBuilder {
 impl PlaneMaze {
     /// Returns the common patterns of its corridors.
     #[must_use]
-    pub const fn dictionary(&self) -> &Dictionary {
+    pub(crate) const fn dictionary(&self) -> &Dictionary {
         &self.dictionary
     }
 
     /// Returns the places by number.
     #[must_use]
-    pub fn places(&self) -> &[MazePlace] {
+    pub(crate) fn places(&self) -> &[MazePlace] {
         &self.places
     }
 
     /// Returns the corridors by number.
     #[must_use]
-    pub fn corridors(&self) -> &[MazeCorridor] {
+    pub(crate) fn corridors(&self) -> &[MazeCorridor] {
         &self.corridors
     }
 
     /// Returns the port at which the robot starts.
     #[must_use]
-    pub const fn start(&self) -> WorldPort {
+    pub(crate) const fn start(&self) -> WorldPort {
         self.start
     }
 
     /// Returns the sighting of a place; a place that does not exist looks like a dead end.
     #[must_use]
-    pub fn sighting(&self, place: u32) -> Sighting {
+    pub(crate) fn sighting(&self, place: u32) -> Sighting {
         match self.places.get(place as usize) {
             Some(place) => Sighting {
                 degree: place.ports.len() as u32,
@@ -320,7 +288,7 @@ impl PlaneMaze {
 
     /// Returns the corridor's end at a port, or `None` if there is no such port.
     #[must_use]
-    pub fn end_at(&self, port: WorldPort) -> Option<CorridorEnd> {
+    pub(crate) fn end_at(&self, port: WorldPort) -> Option<CorridorEnd> {
         let place = self.places.get(port.place as usize)?;
         place.ports.get(port.number as usize).copied()
     }
@@ -328,9 +296,35 @@ impl PlaneMaze {
     /// Returns the port at which a robot arrives if it leaves by `port`. `None` if there is no such
     /// port.
     #[must_use]
-    pub fn beyond(&self, port: WorldPort) -> Option<WorldPort> {
+    pub(crate) fn beyond(&self, port: WorldPort) -> Option<WorldPort> {
         let end = self.end_at(port)?;
         let corridor = self.corridors.get(end.corridor as usize)?;
         Some(corridor.port(end.sign.opposite()))
+    }
+
+    /// Returns the number of corridors of the [shortest walk](covering_walk) from the start through
+    /// all that can be reached.
+    #[must_use]
+    pub(crate) fn covering_walk(&self) -> Option<u32> {
+        covering_walk(self, self.start.place)
+    }
+}
+
+/// Graph of a world's places, with an arc from each to its neighbours along corridors.
+impl Graph for PlaneMaze {
+    fn node_count(&self) -> usize {
+        self.places.len()
+    }
+
+    fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
+        for number in 0..self.sighting(node).degree {
+            let port = WorldPort {
+                place: node,
+                number,
+            };
+            if let Some(beyond) = self.beyond(port) {
+                visit(beyond.place, 1);
+            }
+        }
     }
 }
