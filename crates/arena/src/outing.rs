@@ -376,7 +376,8 @@ impl<R: Robot, S> Sent<R, S> {
     where
         S: Mapper,
     {
-        self.keeping(move |mapper, _| Ok(Some(view_file(system, &origin, &mapper.map())?)))
+        let width = self.course.corridor_width;
+        self.keeping(move |mapper, _| Ok(Some(view_file(system, &origin, width, &mapper.map())?)))
     }
 
     /// Lets `choice` say which of several maps the system takes for that of the maze.

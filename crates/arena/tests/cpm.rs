@@ -4,12 +4,16 @@
 extern crate alloc;
 
 mod cpm {
+    mod adversity;
     mod bad_input;
     mod explorations;
     mod files;
     mod localization;
     mod matching;
+    mod pioneer;
     mod targets;
+    mod trials;
     mod walks;
+    mod wire;
     mod world;
 }

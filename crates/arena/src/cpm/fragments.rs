@@ -5,6 +5,10 @@ use tolman_geom::{Heading, Vector};
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_planners::{Arcs, costs_from};
 use tolman_robot::Landmark;
+use tolman_systems::cpm::Walker;
+
+use super::covering_walk::covering_walk;
+use super::robots::SimulatedEpuck;
 
 /// The fragments that a maze really has, for scoring; no robot knows them.
 #[derive(Clone, Debug)]
@@ -146,6 +150,14 @@ impl TrueFragments {
         self.ways.get(&(from, direction)).copied()
     }
 
+    /// Returns the way by which a robot left its last place; `None` if there is no way.
+    #[must_use]
+    pub fn taken(&self, walker: &Walker<SimulatedEpuck>) -> Option<WayOut> {
+        let body = walker.body();
+        let from = walker.departed_at(body.path())?;
+        self.way(body.world().cell_at(from.position)?, from.heading)
+    }
+
     /// Returns the same fragment, walked the other way.
     #[must_use]
     pub fn reversed(&self, way: WayOut) -> Option<WayOut> {
@@ -193,7 +205,7 @@ impl TrueFragments {
 
     /// Returns a graph of the maze's cells, with an arc for each way, from place to place, that has
     /// a length.
-    pub(super) fn graph(&self, maze: &Maze, length: impl Fn(WayOut) -> Option<u32>) -> Arcs {
+    fn graph(&self, maze: &Maze, length: impl Fn(WayOut) -> Option<u32>) -> Arcs {
         let node = |cell: Cell| maze.grid().index(cell) as u32;
         let arc = |(from, _, way): (Cell, Direction, WayOut)| {
             Some((node(from), node(way.to), length(way)?))
@@ -212,6 +224,17 @@ impl TrueFragments {
         goals
             .filter_map(|goal| costs[maze.grid().index(*goal)])
             .min()
+    }
+
+    /// Returns the number of fragments of the [shortest walk](covering_walk) from the start through
+    /// all of them. `None` without a start, without a way out of it, or if the walk takes too long
+    /// to find.
+    #[must_use]
+    pub fn covering_walk(&self, maze: &Maze) -> Option<u32> {
+        let (start, _) = maze.start()?;
+        let ways = self.graph(maze, |_| Some(1));
+        let walk = covering_walk(&ways, maze.grid().index(start) as u32);
+        walk.filter(|fragments| *fragments > 0)
     }
 
     /// Returns the number of fragments.
@@ -285,5 +308,26 @@ o---o---o---o---o
         assert_eq!(walked(LOOP, &look).unwrap().len(), 2);
         assert_eq!(walked(LOOP, &[(0, 1), (0, 2)]), None);
         assert_eq!(walked(LOOP, &[]), Some(vec![]));
+    }
+
+    #[test]
+    fn the_shortest_covering_walk_goes_back_out_of_dead_ends() {
+        let best = |text: &str| {
+            let maze = tolman_maze::read(text).unwrap().maze;
+            TrueFragments::of(&maze).covering_walk(&maze)
+        };
+        // From the start to the fork, into the dead end and back, to the goal.
+        let fork = "\
+start = 0 0 east
+
+o---o---o---o
+|   |   |   |
+o---o   o---o
+| S       G |
+o---o---o---o
+";
+        assert_eq!(best(fork), Some(4));
+        // All three on the way to the goal, none twice.
+        assert_eq!(best(THREE_WAYS), Some(5));
     }
 }

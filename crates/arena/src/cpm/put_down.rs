@@ -1,16 +1,20 @@
+use core::ops::ControlFlow;
+
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use tolman_geom::Pose;
 use tolman_maps::cpm::{CpMap, End, Environments, FragmentId, Location, Sign};
+use tolman_robot::Standing;
 use tolman_sim::robots::{Epuck, EpuckConfig};
-use tolman_systems::cpm::{Approach, CommonPatterns, Relocalization, Walker, Whereabouts};
+use tolman_systems::cpm::{
+    Approach, CommonPatterns, CpmFailure, Relocalization, Walker, Whereabouts,
+};
 
 use super::fragments::{TrueFragments, WayOut};
-use super::pursue::find_out;
 use super::robots::walker_config;
 use super::spots::{Looks, Spot, knowable};
 use super::trial::{CpmTrialError, TrialRecord};
 use crate::course::Course;
+use crate::run::until_done;
 
 /// Puts a robot that knows some mazes down in the middle of a fragment of one of them. The robot
 /// has to find its place.
@@ -73,8 +77,6 @@ pub struct PutDownRecord {
     pub is_recalled: Option<bool>,
     /// Duration of the search, s.
     pub seconds: f64,
-    /// Pose of the robot after every step.
-    pub path: Vec<Pose>,
 }
 
 impl KnownMaze<'_> {
@@ -120,12 +122,13 @@ impl PutDown<'_> {
         // The ways that it came by to each place. Those to the first place, from mid-fragment, are
         // not compared.
         let mut onward = Vec::new();
-        find_out(&mut search, &mut walker, &mut rng, |walker| {
-            let from = walker.departed_at(walker.body().path());
-            onward.push(from.and_then(|from| {
-                let cell = course.world.cell_at(from.position)?;
-                fragments.way(cell, from.heading)
-            }));
+        until_done(&mut walker, |walker| {
+            let flow = search.advance(walker, &mut rng)?;
+            onward.push(fragments.taken(walker));
+            Ok::<_, CpmFailure<_>>(match flow {
+                ControlFlow::Continue(()) => Standing::UnderWay,
+                ControlFlow::Break(()) => Standing::Done,
+            })
         })?;
         let whereabouts = search.found().clone();
         let begun = WayOut {
@@ -167,7 +170,6 @@ impl PutDown<'_> {
             is_right_at_last: is_right_at(last),
             is_recalled: self.recalled(&whereabouts)?,
             seconds: walker.time_us() as f64 * 1e-6,
-            path: walker.body().path().to_vec(),
             whereabouts,
         }))
     }

@@ -1,9 +1,13 @@
 use tolman_control::epuck::{RangeCurve, RangeCurveError};
-use tolman_sim::robots::{Epuck, EpuckConfig, LaserPioneerConfig};
+use tolman_geom::Pose;
+use tolman_sim::robots::{Epuck, EpuckConfig, LaserPioneer, LaserPioneerConfig};
 use tolman_sim::sensors::ResponseCurve;
-use tolman_systems::cpm::{EpuckMeasures, RingMeasures, WalkerConfig};
+use tolman_systems::cpm::{EpuckMeasures, RingAsEpuck, RingMeasures, WalkerConfig};
 
+use super::trial::CpmTrialError;
 use crate::Simulated;
+use crate::course::Course;
+use crate::pioneer::CoursePioneer;
 
 /// The simulated e-puck. Its maze's zones `start` and `destination` are its landmarks.
 pub type SimulatedEpuck = Simulated<Epuck>;
@@ -16,16 +20,6 @@ const STEP_US: u64 = 13_000;
 pub fn epuck() -> EpuckConfig {
     let mut config = EpuckConfig::cpm();
     config.step_us = STEP_US;
-    config
-}
-
-/// Returns the paper's e-puck as if its wheels could turn fast enough to sweep at "2π rad/s", in 1
-/// s (section 4.1).
-#[must_use]
-pub fn idealized_epuck() -> EpuckConfig {
-    let mut config = EpuckConfig::cpm();
-    config.step_us = 10_000;
-    config.most_wheel_speed = 9.0;
     config
 }
 
@@ -76,6 +70,23 @@ pub fn ring_measures(robot: &LaserPioneerConfig, width: f64) -> RingMeasures {
     }
 }
 
+/// Puts a laser Pioneer down on a course. Returns it as an e-puck, with the configuration of its
+/// walker there.
+///
+/// # Errors
+/// If the robot cannot be built, looks like no e-puck, or cannot stand there.
+pub fn pioneer_as_epuck(
+    course: &Course,
+    pose: Pose,
+    robot: LaserPioneerConfig,
+    seed: u64,
+) -> Result<(RingAsEpuck<CoursePioneer>, WalkerConfig), CpmTrialError> {
+    let measures = ring_measures(&robot, course.corridor_width);
+    let config = measures.walker_config();
+    let body = course.robot_at(pose, LaserPioneer::new(robot)?, seed)?;
+    Ok((RingAsEpuck::new(body, measures)?, config))
+}
+
 #[cfg(test)]
 mod tests {
     use tolman_control::epuck::Pilot;
@@ -96,12 +107,11 @@ mod tests {
             assert_eq!(samples, 100);
             pilot.robot().sensing().time_us
         };
-        assert_eq!(sweep(&idealized_epuck()), 1_000_000);
         assert_eq!(sweep(&slow_epuck()), 3_333_300);
         assert_eq!(sweep(&epuck()), 1_300_000);
-        // Real wheels cannot turn a whole sample in 10 ms.
-        let mut too_fast = idealized_epuck();
-        too_fast.most_wheel_speed = epuck().most_wheel_speed;
+        // Real wheels cannot turn a whole sample in 10 ms, as for a sweep of 1 s (section 4.1).
+        let mut too_fast = epuck();
+        too_fast.step_us = 10_000;
         assert_eq!(sweep(&too_fast), 2_000_000);
     }
 }

@@ -10,6 +10,7 @@ use super::fragments::{TrueFragments, WayOut};
 use super::known_map::KnownMap;
 use super::map_right::is_map_right;
 use super::robots::SimulatedEpuck;
+use super::run::CpmRun;
 
 /// Loops closed in the first episode: arrivals by a way that was not on the map, at a fragment or
 /// place that was.
@@ -68,7 +69,7 @@ struct Walked {
 }
 
 impl<'a> Score<'a> {
-    pub(super) fn of(maze: &'a Maze) -> Self {
+    fn new(maze: &'a Maze) -> Self {
         Self {
             fragments: TrueFragments::of(maze),
             right: 0,
@@ -83,10 +84,14 @@ impl<'a> Score<'a> {
         }
     }
 
-    pub(super) fn begin(&mut self, layer: &Layer3, walker: &Walker<SimulatedEpuck>) {
-        let start = walker.body().path().first();
-        let cell = start.and_then(|start| walker.body().world().cell_at(start.position));
-        self.begin_at(layer.explorer().mapper.at(), cell);
+    /// Begins the score of a run at its start.
+    pub(super) fn of(maze: &'a Maze, run: &CpmRun) -> Self {
+        let body = run.walker.body();
+        let start = body.path().first();
+        let cell = start.and_then(|start| body.world().cell_at(start.position));
+        let mut score = Self::new(maze);
+        score.begin_at(run.layer.explorer().mapper.at(), cell);
+        score
     }
 
     /// Adds a walk to the end of a fragment. A robot that looks for the goal never turns back
@@ -102,10 +107,7 @@ impl<'a> Score<'a> {
         };
         let body = walker.body();
         let here = body.world().cell_at(body.truth().pose.position);
-        let way = walker.departed_at(body.path()).and_then(|from| {
-            let cell = body.world().cell_at(from.position)?;
-            self.fragments.way(cell, from.heading)
-        });
+        let way = self.fragments.taken(walker);
         let length = (step.walked.observations.len() as u32).max(1);
         if let Some(here) = here {
             let way = way.filter(|way| way.to == here);
@@ -280,7 +282,7 @@ mod tests {
         let wall = dictionary.learn(&[1.0], &[1.0], 0.1).unwrap();
         let door = dictionary.learn(&[0.0], &[0.0], 0.1).unwrap();
         let mut mapper = CpMapper::new(CpMapperConfig::robust(), Sighting::plain(1)).unwrap();
-        let mut score = Score::of(&maze);
+        let mut score = Score::new(&maze);
         let start = maze.start().unwrap().0;
         score.begin_at(mapper.at(), Some(start));
         let fork = Cell::new(1, 0);

@@ -1,24 +1,21 @@
 use alloc::collections::BTreeMap;
 
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_control::epuck::RangeCurveError;
 use tolman_geom::Pose;
 use tolman_maps::cpm::{CpMap, CpmError, FragmentId, LocalizeError, RecallError};
 use tolman_maze::Cell;
 use tolman_robot::Landmark;
-use tolman_sim::noise::Fault;
-use tolman_sim::robots::{Epuck, EpuckConfig, EpuckError};
+use tolman_sim::robots::{Epuck, EpuckConfig, EpuckError, RobotConfigError};
 use tolman_sim::{PlaceError, StepError};
 use tolman_systems::cpm::{
-    Aim, CommonPatterns, CpmConfig, CpmFailure, Done, EpisodeSummary, FragmentStep, Layer3,
-    LearnPatternsError, Lesson, Mode, WalkError, Walker, WalkerConfig, soinn, wander,
+    Aim, CommonPatterns, CpmFailure, CpmResult, Done, EpisodeSummary, FragmentStep, Layer3,
+    LearnPatternsError, Mode, UnfitRing, WalkError, Walker,
 };
 
 use super::fragments::WayOut;
-use super::pursue::pursue;
-use super::robots::{SimulatedEpuck, epuck, walker_config};
+use super::robots::{SimulatedEpuck, walker_config};
+use super::run::CpmRun;
 use super::score::{Closures, Score};
 use crate::course::{Course, CourseError};
 
@@ -58,8 +55,6 @@ pub struct TrialRecord {
     pub closures: Closures,
     /// Number of walks along fragments in the first episode.
     pub traversals: u32,
-    /// Number of fragments of the map at the end of the first episode.
-    pub fragments: u32,
     /// Number of common patterns that the robot knows at the end.
     pub patterns: u32,
     /// Number of fragments that were truly walked.
@@ -99,67 +94,19 @@ impl TrialRecord {
     }
 }
 
-/// Learns the common patterns in a maze as the paper's simulated robot does, from 1000 observations
-/// (section 5).
-///
-/// # Errors
-/// [`CpmTrialError`].
-pub fn learn(course: &Course, seed: u64) -> Result<CommonPatterns, CpmTrialError> {
-    let config = walker_config(&epuck(), course.corridor_width)?;
-    learn_by(course, epuck(), config, Lesson::Observations(1000), seed)
-}
-
-/// Learns the common patterns in a maze by another robot, with its own walker.
-///
-/// # Errors
-/// [`CpmTrialError`].
-pub fn learn_by(
-    course: &Course,
-    robot: EpuckConfig,
-    config: WalkerConfig,
-    lesson: Lesson,
-    seed: u64,
-) -> Result<CommonPatterns, CpmTrialError> {
-    let mut walker = Walker::new(
-        course.robot_at(course.start()?, Epuck::new(robot)?, seed)?,
-        config,
-    );
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let observations = wander(&mut walker, lesson, &mut rng)?;
-    Ok(CommonPatterns::learn(&observations, soinn())?)
-}
-
 impl CpmTrial<'_> {
-    /// Returns the robot of the paper with wheels that slip by `share`, 0 to 1.
-    #[must_use]
-    pub fn slipping(share: f64) -> EpuckConfig {
-        let mut config = epuck();
-        config.wheels = vec![Fault::Slip { share }];
-        config
-    }
-
-    /// Returns the robot at any pose in its world.
-    pub(super) fn walker_at(&self, start: Pose) -> Result<Walker<SimulatedEpuck>, CpmTrialError> {
-        let mut config = walker_config(&self.robot, self.course.corridor_width)?;
-        config.heading = self.mode.heading();
+    /// Puts the robot down at the start and sends it out. The inner error is that of a robot that
+    /// fails as it looks round.
+    ///
+    /// # Errors
+    /// [`CpmTrialError`] if it cannot be put there.
+    pub fn begin(&self) -> Result<CpmResult<CpmRun, SimulatedEpuck>, CpmTrialError> {
+        let course = self.course;
+        let config = walker_config(&self.robot, course.corridor_width)?;
         let robot = Epuck::new(self.robot.clone())?;
-        let body = self.course.robot_at(start, robot, self.seed)?;
-        Ok(Walker::new(body, config))
-    }
-
-    /// Lets the robot look round, and returns layer 3 with a map that begins there. It follows the
-    /// mode, except for `config`.
-    pub(super) fn begin(
-        &self,
-        walker: &mut Walker<SimulatedEpuck>,
-        config: CpmConfig,
-    ) -> Result<Layer3, CpmFailure<StepError>> {
-        let novelty = self.mode.novelty();
-        let patterns = match novelty {
-            Some(_) => CommonPatterns::none().map_err(CpmError::from)?,
-            None => self.patterns.clone(),
-        };
-        Layer3::begin(walker, patterns, novelty, config)
+        let body = course.robot_at(course.start()?, robot, self.seed)?;
+        let (patterns, mode) = (self.patterns, self.mode);
+        Ok(CpmRun::begin(body, config, patterns, mode, self.seed))
     }
 
     /// Plays both episodes and returns the result. Failures on the way are part of it.
@@ -178,16 +125,14 @@ impl CpmTrial<'_> {
         &self,
         see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &FragmentStep),
     ) -> Result<TrialRecord, CpmTrialError> {
-        let start = self.course.start()?;
-        let mut walker = self.walker_at(start)?;
         let mut record = TrialRecord::default();
-        match self.begin(&mut walker, self.mode.config()) {
-            Ok(mut layer) => {
-                let played = self.episodes(&mut layer, &mut walker, start, &mut record, see);
+        match self.begin()? {
+            Ok(mut run) => {
+                let played = self.episodes(&mut run, &mut record, see);
                 record.trouble = played.err().map(|error| error.to_string());
-                record.patterns = layer.patterns().dictionary().len() as u32;
-                record.bumps = walker.body().bumps();
-                record.path = walker.body().path().to_vec();
+                record.patterns = run.layer.patterns().dictionary().len() as u32;
+                record.bumps = run.walker.body().bumps();
+                record.path = run.walker.body().path().to_vec();
             }
             Err(error) => record.trouble = Some(error.to_string()),
         }
@@ -196,26 +141,21 @@ impl CpmTrial<'_> {
 
     fn episodes(
         &self,
-        layer: &mut Layer3,
-        walker: &mut Walker<SimulatedEpuck>,
-        start: Pose,
+        run: &mut CpmRun,
         record: &mut TrialRecord,
         mut see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &FragmentStep),
     ) -> Result<(), CpmTrialError> {
         let maze = &self.course.maze;
-        let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
-        let mut score = Score::of(maze);
-        score.begin(layer, walker);
-        let aim = Aim::Find(Landmark::Goal);
-        let first = pursue(layer, walker, aim, &mut rng, |layer, walker, step| {
+        let mut score = Score::of(maze, run);
+        let first = run.pursue(Aim::Find(Landmark::Goal), |layer, walker, step| {
             score.see(layer, walker, step);
             see(layer, walker, step);
         });
+        let CpmRun { walker, layer, .. } = &mut *run;
         let mapper = &layer.explorer().mapper;
         record.closures = score.closures_at_the_end(layer.map());
         record.contradictions = mapper.contradictions();
         record.traversals = mapper.traversals();
-        record.fragments = layer.map().fragments().len() as u32;
         record.true_fragments = score.lengths.len() as u32;
         record.map = layer.map().clone();
         record.truth = score.truth.clone();
@@ -223,17 +163,17 @@ impl CpmTrial<'_> {
         layer.optimize()?;
         record.is_map_right = score.is_map_right(layer.map(), maze);
         record.second_from = walker.body().path().len();
-        walker.body_mut().place(start)?;
+        walker.body_mut().place(self.course.start()?)?;
         layer.placed_at_start(walker)?;
-        if let Some(plan) = layer.explorer().mapper.plan(Landmark::Goal) {
-            record.second = Some(layer.drive_plan(walker, &plan)?);
-            let path = walker.body().path();
-            let path = path.get(record.second_from..).unwrap_or_default();
-            if let Some(driven) = score.length_of(&self.course.world, path) {
-                let is_as_short = |shortest: Option<u32>| is_as_short(driven, shortest);
-                record.is_shortest_known = is_as_short(score.known.shortest());
-                record.is_shortest_as_it_lies = is_as_short(score.shortest_as_it_lies(maze));
-            }
+        record.second = run.drive_to_goal()?;
+        let path = run.walker.body().path();
+        let path = path.get(record.second_from..).unwrap_or_default();
+        if record.second.is_some()
+            && let Some(driven) = score.length_of(&self.course.world, path)
+        {
+            let is_as_short = |shortest: Option<u32>| is_as_short(driven, shortest);
+            record.is_shortest_known = is_as_short(score.known.shortest());
+            record.is_shortest_as_it_lies = is_as_short(score.shortest_as_it_lies(maze));
         }
         Ok(())
     }
@@ -252,15 +192,15 @@ pub enum CpmTrialError {
     /// The maze is not a course for an e-puck.
     #[error(transparent)]
     Course(#[from] CourseError),
-    /// The watcher of a robot broke its learning off.
-    #[error("the watcher stopped the lesson after {walks} fragments; let it run to its end")]
-    BrokenOff {
-        /// Number of walks.
-        walks: u32,
-    },
-    /// The robot cannot be built.
+    /// The e-puck cannot be built.
     #[error(transparent)]
     Epuck(#[from] EpuckError),
+    /// The Pioneer cannot be built.
+    #[error(transparent)]
+    Pioneer(#[from] RobotConfigError),
+    /// The Pioneer's laser cannot stand in for an e-puck's sensors.
+    #[error(transparent)]
+    Ring(#[from] UnfitRing),
     /// A fragment was not walked from end to end.
     #[error(
         "the robot saw nothing on the way from {} to {}, or came elsewhere: make the way longer than a cell",
@@ -270,9 +210,6 @@ pub enum CpmTrialError {
         /// The places at the fragment's ends.
         ends: (Cell, Cell),
     },
-    /// The map leads to no goal.
-    #[error("the map has no way to a goal: learn until the goal is found")]
-    NoPlan,
     /// The robot cannot stand at the start.
     #[error(transparent)]
     Place(#[from] PlaceError),
@@ -299,31 +236,17 @@ pub enum CpmTrialError {
     Map(#[from] CpmError),
 }
 
-impl CpmTrialError {
-    /// Returns whether the maze or the map is at fault. Otherwise the robot failed.
-    #[must_use]
-    pub const fn is_bad_input(&self) -> bool {
-        matches!(
-            self,
-            Self::Course(_)
-                | Self::Epuck(_)
-                | Self::NoPlan
-                | Self::Place(_)
-                | Self::Cpm(CpmFailure::NoStart | CpmFailure::NotTheStart { .. })
-        )
-    }
-}
-
 #[cfg(test)]
 pub(super) mod tests {
     use std::sync::LazyLock;
 
     use tolman_maps::cpm::{FragmentMatching, Similarity};
     use tolman_maze::{Direction, Grid, Maze};
+    use tolman_sim::noise::Fault;
+    use tolman_systems::cpm::{Approach, CpmConfig};
 
     use super::*;
-    use crate::cpm::{KnownMaze, PutDown, RoundTrip};
-    use tolman_systems::cpm::Approach;
+    use crate::cpm::{KnownMaze, PutDown, epuck, learn};
 
     const WIDTH: f64 = 0.25;
 
@@ -432,7 +355,8 @@ pub(super) mod tests {
             let record = blind.play().unwrap();
             let closures = record.closures;
             assert_eq!((closures.right, closures.wrong), (0, 0));
-            assert_eq!(closures.missed, record.fragments - record.true_fragments);
+            let fragments = record.map.fragments().len() as u32;
+            assert_eq!(closures.missed, fragments - record.true_fragments);
             assert!(closures.missed == 0 || !record.is_map_right);
             missed += closures.missed;
         }
@@ -462,10 +386,12 @@ pub(super) mod tests {
     #[test]
     fn wheels_that_slip_by_half_end_where_the_record_says() {
         let maze = maze_1();
+        let mut robot = epuck();
+        robot.wheels = vec![Fault::Slip { share: 0.5 }];
         for seed in 0..3 {
             let slipping = CpmTrial {
                 seed,
-                ..trial(&maze, CpmTrial::slipping(0.5))
+                ..trial(&maze, robot.clone())
             };
             let record = slipping.play().unwrap();
             let end = record
@@ -529,19 +455,19 @@ pub(super) mod tests {
             seed: 900,
             ..trial(&maze, epuck())
         };
-        let mut walker = trial.walker_at(maze.start().unwrap()).unwrap();
-        let trip = RoundTrip::watch(
-            &mut walker,
-            &PATTERNS,
-            CpmConfig::online(),
-            900,
-            |_, _, _| {},
-        );
-        let trip = trip.unwrap();
-        assert_eq!(trip.back.unwrap().done, Done::Reached);
-        assert!(trip.tried > 0 && trip.length_after < trip.length_before);
-        let again = trip.again.unwrap();
+        let mut run = trial.begin().unwrap().unwrap();
+        let there = run.pursue(Aim::Find(Landmark::Goal), |_, _, _| {}).unwrap();
+        run.layer.optimize().unwrap();
+        let before = run.layer.explorer().mapper.plan(Landmark::Start).unwrap();
+        let mut tried = 0;
+        let back = run.pursue(Aim::WayBack, |_, _, step| {
+            tried += u32::from(step.leg.known.is_none());
+        });
+        assert_eq!(back.unwrap().done, Done::Reached);
+        let after = run.layer.explorer().mapper.plan(Landmark::Goal).unwrap();
+        assert!(tried > 0 && after.length < before.length);
+        let again = run.drive_to_goal().unwrap().unwrap();
         assert_eq!(again.done, Done::Reached);
-        assert!(again.observations < trip.there.observations / 10);
+        assert!(again.observations < there.observations / 10);
     }
 }

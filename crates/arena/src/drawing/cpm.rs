@@ -2,7 +2,7 @@
 
 use core::fmt::Write;
 
-use tolman_geom::{Point, Pose, Vector, nearest_on_segment};
+use tolman_geom::{Point, Vector, nearest_on_segment};
 use tolman_maps::cpm::{CpMap, End, Fragment, FragmentId, Junction, JunctionId, PortState, Sign};
 use tolman_maze::Cell;
 use tolman_robot::Landmark;
@@ -49,23 +49,6 @@ const fn series(id: FragmentId) -> Series {
 /// dashed stubs.
 #[must_use]
 pub fn over_maze(map: &CpMap, course: &Course) -> Drawing {
-    let plan = plan_with(map, course);
-    plan.drawing(format!(
-        "A common-pattern map of {} fragments over its maze.",
-        map.fragments().len()
-    ))
-}
-
-/// Returns a robot's way, over the map that it learned and over the maze.
-#[must_use]
-pub fn drive(map: &CpMap, course: &Course, path: &[Pose]) -> Drawing {
-    let mut plan = plan_with(map, course);
-    let positions: Vec<Point> = path.iter().map(|pose| pose.position).collect();
-    plan.trajectory(&positions, JUNCTION);
-    plan.drawing("A drive by a common-pattern map.")
-}
-
-fn plan_with(map: &CpMap, course: &Course) -> FloorPlan {
     let world = &course.world;
     let layout = Layout::of(map, &course.maze);
     let mut plan = plan_of(course);
@@ -103,7 +86,10 @@ fn plan_with(map: &CpMap, course: &Course) -> FloorPlan {
     for (at, sign) in signs {
         plan.label(at, &sign.to_string());
     }
-    plan
+    plan.drawing(format!(
+        "A common-pattern map of {} fragments over its maze.",
+        map.fragments().len()
+    ))
 }
 
 /// Returns the plan of a maze; cells that the robot cannot reach are solid.

@@ -7,19 +7,23 @@ use tolman_systems::{FileError, MapFiles, Origin};
 
 use super::LearnedMap;
 use crate::BoxError;
-use crate::course::Terrain;
+use crate::course::{Course, Terrain};
 use crate::drawing::places_over_world;
+use crate::pioneer::body;
 
 /// The file of a map of which only places and links are kept: any system's.
 #[derive(Clone, Debug)]
 pub(super) struct ViewFile {
     system: String,
     origin: Origin,
+    corridor_width: f64,
     view: MapView,
 }
 
 #[derive(Serialize, Deserialize)]
 struct Body {
+    /// Width of the corridors, m.
+    corridor_width: f64,
     places: Vec<Place>,
     links: Vec<(u32, u32)>,
 }
@@ -37,6 +41,7 @@ struct Place {
 pub(crate) fn view_file(
     system: &'static str,
     origin: &Origin,
+    corridor_width: f64,
     view: &MapView,
 ) -> Result<String, FileError> {
     let place = |place: &MapPlace| Place {
@@ -45,6 +50,7 @@ pub(crate) fn view_file(
         landmark: place.landmark,
     };
     let body = Body {
+        corridor_width,
         places: view.places.iter().map(place).collect(),
         links: view.links.iter().map(|link| (link.from, link.to)).collect(),
     };
@@ -54,7 +60,12 @@ pub(crate) fn view_file(
 impl ViewFile {
     /// Reads the text of a file that `system` wrote; `None` if it has other fields.
     pub(super) fn read(system: &'static str, text: &str) -> Option<Self> {
-        let (origin, Body { places, links }) = MapFiles { system }.read(text).ok()?;
+        let (origin, body) = MapFiles { system }.read(text).ok()?;
+        let Body {
+            corridor_width,
+            places,
+            links,
+        } = body;
         let place = |place: Place| MapPlace {
             id: place.id,
             position: place.position.map(Point::from),
@@ -70,6 +81,7 @@ impl ViewFile {
         Some(Self {
             system,
             origin,
+            corridor_width,
             view,
         })
     }
@@ -109,7 +121,14 @@ impl LearnedMap for ViewFile {
         {
             return Err("the map has no positions of its places: leave --svg out".into());
         }
-        let course = terrain.course(&self.origin.world, &crate::pioneer::body())?;
+        let course = self.course(&self.origin.world, terrain)?;
         Ok(places_over_world(&course, &self.view))
+    }
+
+    fn course(&self, world: &str, terrain: &Terrain) -> Result<Course, BoxError> {
+        Ok(match terrain {
+            Terrain::Maze(file) => Course::new(world, file.maze.clone(), self.corridor_width)?,
+            Terrain::Free(_) => terrain.course(world, &body())?,
+        })
     }
 }

@@ -1,11 +1,14 @@
 //! Completely explored mazes: the robot's walk compared with the best one, and the bound of Theorem
 //! 1 compared with the measured times.
 
-use tolman_systems::cpm::Done;
+use alloc::collections::BTreeSet;
+
+use tolman_maps::cpm::theorem_1;
+use tolman_systems::cpm::{Aim, Done};
 
 use super::trials::{Setting, Trials, better, in_both_modes};
 use tolman_arena::course::Course;
-use tolman_arena::cpm::CpmTrial;
+use tolman_arena::cpm::{CpmTrial, TrueFragments, is_whole_map_right};
 use tolman_experiment::{BoxError, Fields, Options, Record, Table, record, require};
 
 /// Name of the table.
@@ -86,24 +89,50 @@ pub(super) fn explored(courses: &[Course], papers: bool, options: &Options) -> T
     Trials::new(table, settings, row, measure)
 }
 
-/// Explores one maze and returns the record.
+/// Explores one maze to its end and returns the record; a failure on the way is part of it.
 fn measure(trial: &CpmTrial<'_>) -> Result<Fields, BoxError> {
-    let found = trial.explore()?;
-    let is_within = found.seconds.is_some_and(|seconds| seconds <= found.bound);
-    let is_finished = found.done == Some(Done::Reached);
-    let to_best = |best: u32| f64::from(found.traversals) / f64::from(best);
-    let run = ExploredRun {
-        finished: is_finished,
-        map_right: is_finished && found.is_map_right,
-        traversals: found.traversals,
-        fragments: found.fragments,
-        best: found.best,
-        traversals_to_best: found.best.filter(|_| is_finished).map(to_best),
-        seconds: found.seconds,
-        bound: found.bound,
-        within_bound: is_within,
-        bumps: found.bumps,
-        trouble: found.trouble,
+    let maze = &trial.course.maze;
+    let fragments = TrueFragments::of(maze);
+    let mut found = ExploredRun {
+        fragments: fragments.count(),
+        best: fragments.covering_walk(maze),
+        ..ExploredRun::default()
     };
-    Ok(run.fields()?)
+    let mut run = match trial.begin()? {
+        Ok(run) => run,
+        Err(error) => {
+            found.trouble = Some(error.to_string());
+            return Ok(found.fields()?);
+        }
+    };
+    let mut ends_us = vec![run.walker.time_us()];
+    // How many fragments were known after each walk.
+    let (mut walked, mut known) = (BTreeSet::new(), Vec::new());
+    let ended = run.pursue(Aim::Explore, |_, walker, step| {
+        let way = step.arrival.and_then(|_| fragments.taken(walker));
+        walked.extend(way.map(|way| way.fragment));
+        ends_us.push(walker.time_us());
+        known.push(walked.len() as u32);
+    });
+    match ended {
+        Ok(episode) => found.finished = episode.done == Done::Reached,
+        Err(error) => found.trouble = Some(error.to_string()),
+    }
+    let seconds = |pair: &[u64]| (pair[1] - pair[0]) as f64 * 1e-6;
+    let times: Vec<f64> = ends_us.windows(2).map(seconds).collect();
+    // T₁ … of the fragments "the robot passes before detecting duplication".
+    let first = (1..)
+        .zip(&known)
+        .take_while(|(walks, known)| walks == *known);
+    let longest = times.iter().copied().fold(0.0, f64::max);
+    found.bound = theorem_1(&times[..first.count()], longest, found.fragments);
+    let last = known.iter().position(|known| *known == found.fragments);
+    found.seconds = last.map(|last| times[..=last].iter().sum());
+    found.within_bound = found.seconds.is_some_and(|seconds| seconds <= found.bound);
+    found.traversals = run.layer.explorer().mapper.traversals();
+    let to_best = |best: u32| f64::from(found.traversals) / f64::from(best);
+    found.traversals_to_best = found.best.filter(|_| found.finished).map(to_best);
+    found.map_right = found.finished && last.is_some() && is_whole_map_right(run.layer.map(), maze);
+    found.bumps = run.walker.body().bumps();
+    Ok(found.fields()?)
 }

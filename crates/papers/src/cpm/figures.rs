@@ -92,7 +92,9 @@ fn ways(course: &Course, record: &TrialRecord, row: &str, name: &str) -> Figure 
     .caption(format!(
         "The solved trial with the longest first episode (first colour): {} fragments walked, {} of them different, {} on the map. The second \
          colour is the second episode. As the paper's figure 8, (b) and (c).",
-        record.traversals, record.true_fragments, record.fragments
+        record.traversals,
+        record.true_fragments,
+        record.map.fragments().len()
     ))
     .table(FIGURE_9)
 }

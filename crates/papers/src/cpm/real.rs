@@ -3,16 +3,18 @@
 use std::sync::OnceLock;
 
 use serde::Serialize;
+use tolman_geom::Pose;
+use tolman_robot::Landmark;
 use tolman_sim::robots::{Epuck, EpuckConfig};
 
+use super::trials::faithful;
 use super::{agree, less, mazes};
 use crate::tolerances::{COUNTED, SAVED, SUCCESS};
 use tolman_arena::course::Course;
-use tolman_arena::cpm::{RoundTrip, SimulatedEpuck, learn_by, slow_epuck, walker_config};
+use tolman_arena::cpm::{CpmRun, SimulatedEpuck, learn_by, slow_epuck, walker_config};
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record, require};
 use tolman_systems::cpm::{
-    CommonPatterns, CpmConfig, Done, EpisodeSummary, FragmentStep, Layer3, Lesson, Walker,
-    WalkerConfig,
+    Aim, CommonPatterns, Done, EpisodeSummary, FragmentStep, Layer3, Lesson, Walker, WalkerConfig,
 };
 
 /// Name of the table.
@@ -82,26 +84,55 @@ impl Real {
     pub(super) fn play(
         &self,
         job: &Job<'_>,
-        see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &FragmentStep),
-    ) -> Result<RoundTrip, BoxError> {
-        let body =
-            self.course
-                .robot_at(self.course.start()?, Epuck::new(slow_epuck())?, job.seed)?;
-        let mut walker = Walker::new(body, walker(&self.course)?);
-        let (patterns, config) = (self.patterns()?, CpmConfig::online());
-        Ok(RoundTrip::watch(
-            &mut walker,
-            patterns,
-            config,
-            job.seed,
-            see,
-        )?)
+        mut see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &FragmentStep),
+    ) -> Result<Trip, BoxError> {
+        let (course, patterns) = (&self.course, self.patterns()?);
+        let body = course.robot_at(course.start()?, Epuck::new(slow_epuck())?, job.seed)?;
+        let mut run = CpmRun::begin(body, walker(course)?, patterns, faithful(), job.seed)?;
+        let mut trip = Trip {
+            ways: vec![run.pursue(Aim::Find(Landmark::Goal), &mut see)?],
+            begun: vec![0],
+            tried: 0,
+            given_up: 0,
+            path: Vec::new(),
+        };
+        run.layer.optimize()?;
+        if run.layer.map().has_goal() {
+            trip.begun.push(run.walker.body().path().len());
+            let back = run.pursue(Aim::WayBack, |layer, walker, step| {
+                see(layer, walker, step);
+                trip.tried += u32::from(step.leg.known.is_none());
+                trip.given_up += u32::from(step.walked.sighting.is_none());
+            })?;
+            trip.ways.push(back);
+            trip.begun.push(run.walker.body().path().len());
+            trip.ways.extend(run.drive_to_goal()?);
+        }
+        trip.path = run.walker.body().path().to_vec();
+        Ok(trip)
     }
 
     /// Plays a run and returns its record.
     pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
         measured(&self.play(job, |_, _, _| {})?)
     }
+}
+
+/// To the goal, back, and to the goal again (sections 6 and 7, figure 11). "On the way back, the
+/// robot tries a new path-fragment" as long as it may be shorter than the known way.
+///
+/// The paper's robot made 20 observations to the goal, 13 on the way back and 4 on its second way.
+pub(super) struct Trip {
+    /// The ways that the robot went, up to three.
+    pub(super) ways: Vec<EpisodeSummary>,
+    /// Time step at which each way began.
+    pub(super) begun: Vec<usize>,
+    /// Number of unknown fragments that the robot entered on the way back.
+    pub(super) tried: u32,
+    /// Number of these in which the robot turned round, as they "will never be shorter".
+    pub(super) given_up: u32,
+    /// Pose of the robot after every time step.
+    pub(super) path: Vec<Pose>,
 }
 
 record! {
@@ -185,10 +216,12 @@ pub(super) fn table(course: &Course) -> Table {
         )
 }
 
-fn measured(trip: &RoundTrip) -> Result<Fields, BoxError> {
-    let reached = |episode: Option<EpisodeSummary>| episode.filter(|one| one.done == Done::Reached);
-    let (there, back) = (reached(Some(trip.there)), reached(trip.back));
-    let again = reached(trip.again);
+fn measured(trip: &Trip) -> Result<Fields, BoxError> {
+    let reached = |way: usize| {
+        let way = trip.ways.get(way).copied();
+        way.filter(|way| way.done == Done::Reached)
+    };
+    let [there, back, again] = [0, 1, 2].map(reached);
     let all = there.zip(back).zip(again);
     let again = all.map(|(_, again)| again);
     let both_ways = |((there, back), _): ((EpisodeSummary, EpisodeSummary), EpisodeSummary)| {

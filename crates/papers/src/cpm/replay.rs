@@ -45,14 +45,10 @@ pub(super) fn of_round_trip(real: &Real, job: &Job<'_>) -> Result<Replay, BoxErr
     let mut watch = Watch::new(&real.course);
     let trip = real.play(job, |layer, walker, step| watch.see(layer, walker, step))?;
     let mut track = track(&trip.path);
-    for (episode, begun, name) in [
-        (trip.back, trip.back_from, "way back"),
-        (trip.again, trip.again_from, "to the goal again"),
-    ] {
-        if episode.is_some() {
-            let mark = Marks::new(Mark::Arrival, name, [begun as u32]);
-            track.marks.push(mark);
-        }
+    let names = [None, Some("way back"), Some("to the goal again")];
+    for ((name, begun), _) in names.into_iter().zip(&trip.begun).zip(&trip.ways) {
+        let mark = name.map(|name| Marks::new(Mark::Arrival, name, [*begun as u32]));
+        track.marks.extend(mark);
     }
     Ok(watch
         .replay(slow_epuck().step_us, job, track)

@@ -417,7 +417,7 @@ impl TrialRun {
             observations_1: record.first.map(|episode| episode.observations),
             observations_2: record.second.map(|episode| episode.observations),
             traversals: record.traversals,
-            fragments: record.fragments,
+            fragments: record.map.fragments().len() as u32,
             true_fragments: record.true_fragments,
             contradictions: record.contradictions,
             bumps: record.bumps,

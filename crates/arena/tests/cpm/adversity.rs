@@ -4,20 +4,15 @@
 use alloc::sync::Arc;
 use core::f64::consts::{PI, TAU};
 
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
+use tolman_arena::cpm::{CpmRun, SimulatedEpuck, epuck, walker_config};
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_robot::epuck::{EpuckSensing, PROXIMITY_SENSORS, WheelSpeeds};
 use tolman_robot::{Landmark, Robot, SensesLandmarks};
 use tolman_sim::robots::Epuck;
 use tolman_sim::{Area, StepError, WallSegment, World, Zone};
-use tolman_systems::cpm::{
-    Aim, CpmConfig, CpmFailure, CpmRobot, Done, EpisodeSummary, Layer3, Walker,
-};
+use tolman_systems::cpm::{Aim, CpmConfig, CpmFailure, CpmRobot, Done, EpisodeSummary, Mode};
 
-use super::pursue::pursue;
-use super::robots::{SimulatedEpuck, epuck, walker_config};
-use super::trial::tests::{PATTERNS, maze_1};
+use super::trials::{PATTERNS, maze_1};
 
 const WIDTH: f64 = 0.25;
 
@@ -83,12 +78,9 @@ fn search<B: CpmRobot>(
     config.most_traversals = 20;
     let mut walker = walker_config(&epuck(), width).unwrap();
     walker.longest_fragment = 150;
-    let mut walker = Walker::new(body, walker);
-    let mut layer = Layer3::begin(&mut walker, PATTERNS.clone(), None, config)?;
-    let mut rng = ChaCha8Rng::seed_from_u64(1);
-    let aim = Aim::Find(Landmark::Goal);
-    let episode = pursue(&mut layer, &mut walker, aim, &mut rng, |_, _, _| {})?;
-    let is_there = walker.body().landmark() == Some(Landmark::Goal);
+    let mut run = CpmRun::begin(body, walker, &PATTERNS, Mode::Paper(config), 1)?;
+    let episode = run.pursue(Aim::Find(Landmark::Goal), |_, _, _| {})?;
+    let is_there = run.walker.body().landmark() == Some(Landmark::Goal);
     Ok((episode, is_there))
 }
 

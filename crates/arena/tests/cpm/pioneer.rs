@@ -1,22 +1,14 @@
 //! CPM on the laser Pioneer: mazes learned by a robot nearly four times an e-puck's size, without
 //! its sensors.
 
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
+use tolman_arena::course::Course;
+use tolman_arena::cpm::{is_whole_map_right, learn_on_pioneer, pioneer_as_epuck};
+use tolman_arena::pioneer::{CORRIDOR_WIDTH, CoursePioneer, calibrated};
+use tolman_arena::run::{Ended, Limited, TaskEnd, run};
 use tolman_maze::Maze;
 use tolman_robot::{Goal, Landmark, Mapper, Position, SensesLandmarks, Task};
 use tolman_sim::Truth;
-use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
-use tolman_systems::cpm::{
-    CommonPatterns, Cpm, CpmConfig, Lesson, RingAsEpuck, Walker, WalkerConfig, soinn, wander,
-};
-
-use super::map_right::is_whole_map_right;
-use super::robots::ring_measures;
-use crate::Simulated;
-use crate::course::Course;
-use crate::pioneer::{CORRIDOR_WIDTH, calibrated};
-use crate::run::{Ended, Limited, TaskEnd, run};
+use tolman_systems::cpm::{Cpm, CpmConfig, RingAsEpuck, WalkerConfig};
 
 /// Maximum number of time steps. Explorations take 30 000.
 const STEP_LIMIT: u32 = 100_000;
@@ -30,19 +22,12 @@ fn course(text: &str) -> Course {
 }
 
 /// A Pioneer that looks like an e-puck.
-type Epuck = RingAsEpuck<Simulated<LaserPioneer>>;
+type Epuck = RingAsEpuck<CoursePioneer>;
 
 /// Returns the robot at the start of a maze, which looks like an e-puck, with the configuration of
 /// its walker.
-fn placed(course: &Course, robot: LaserPioneerConfig, seed: u64) -> (Epuck, WalkerConfig) {
-    let measures = ring_measures(&robot, CORRIDOR_WIDTH);
-    let config = measures.walker_config();
-    let model = LaserPioneer::new(robot).unwrap();
-    let pioneer = course
-        .robot_at(course.start().unwrap(), model, seed)
-        .unwrap();
-    let epuck = RingAsEpuck::new(pioneer, measures).unwrap();
-    (epuck, config)
+fn placed(course: &Course, seed: u64) -> (Epuck, WalkerConfig) {
+    pioneer_as_epuck(course, course.start().unwrap(), calibrated(), seed).unwrap()
 }
 
 fn truth(epuck: &Epuck) -> &Truth {
@@ -89,7 +74,7 @@ fn play(mut cpm: Cpm, mut epuck: Epuck, maze: &Maze) {
 fn a_pioneer_learns_a_maze_by_its_laser_and_goes_to_the_goal() {
     let forks = course(FORKS);
     for seed in 0..2 {
-        let (epuck, config) = placed(&forks, calibrated(), seed);
+        let (epuck, config) = placed(&forks, seed);
         let cpm = Cpm::unlearned(config, CpmConfig::robust(), seed).unwrap();
         play(cpm, epuck, &forks.maze);
     }
@@ -99,13 +84,9 @@ fn a_pioneer_learns_a_maze_by_its_laser_and_goes_to_the_goal() {
 #[test]
 fn a_pioneer_learns_as_the_paper_s_robot_does() {
     let learning = course(include_str!("../../mazes/cpm-learning.maze"));
-    let (epuck, config) = placed(&learning, calibrated(), 1);
-    let mut rng = ChaCha8Rng::seed_from_u64(1);
-    let mut walker = Walker::new(epuck, config);
-    let seen = wander(&mut walker, Lesson::Observations(300), &mut rng).unwrap();
-    let patterns = CommonPatterns::learn(&seen, soinn()).unwrap();
+    let patterns = learn_on_pioneer(&learning, 1).unwrap();
     let forks = course(FORKS);
-    let (epuck, config) = placed(&forks, calibrated(), 1);
+    let (epuck, config) = placed(&forks, 1);
     let cpm = Cpm::new(config, patterns, CpmConfig::online(), 1);
     play(cpm, epuck, &forks.maze);
 }

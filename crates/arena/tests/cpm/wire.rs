@@ -7,8 +7,7 @@ use core::cell::RefCell;
 use core::time::Duration;
 use std::io::{self, ErrorKind, Read, Write};
 
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
+use tolman_arena::cpm::{CpmRun, SimulatedEpuck, epuck, walker_config};
 use tolman_control::epuck::{Pilot, Profile, SensorAlignment, TURN_STEP};
 use tolman_maps::cpm::CpMap;
 use tolman_robot::epuck::{ENCODER_STEP, EpuckSensing, WheelSpeeds};
@@ -16,13 +15,11 @@ use tolman_robot::epuck_serial::{SerialEpuck, SerialError};
 use tolman_robot::{Landmark, Landmarked, Robot, SensesLandmarks};
 use tolman_sim::robots::Epuck;
 use tolman_systems::cpm::{
-    Aim, CpmConfig, CpmFailure, CpmRobot, Done, EpisodeSummary, Layer3, WalkError, Walker,
+    Aim, CpmConfig, CpmFailure, CpmRobot, Done, EpisodeSummary, Mode, WalkError, Walker,
     WalkerConfig,
 };
 
-use super::pursue::pursue;
-use super::robots::{SimulatedEpuck, epuck, walker_config};
-use super::trial::tests::{PATTERNS, maze_1};
+use super::trials::{PATTERNS, maze_1};
 
 const WIDTH: f64 = 0.25;
 
@@ -198,17 +195,13 @@ fn play<B: CpmRobot>(
     seed: u64,
     lift: impl FnOnce(&mut B),
 ) -> Result<([EpisodeSummary; 2], CpMap), CpmFailure<B::Error>> {
-    let mut walker = Walker::new(body, config);
-    let mut layer = Layer3::begin(&mut walker, PATTERNS.clone(), None, CpmConfig::online())?;
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let aim = Aim::Find(Landmark::Goal);
-    let first = pursue(&mut layer, &mut walker, aim, &mut rng, |_, _, _| {})?;
-    layer.optimize()?;
-    lift(walker.body_mut());
-    layer.placed_at_start(&mut walker)?;
-    let plan = layer.explorer().mapper.plan(Landmark::Goal).unwrap();
-    let second = layer.drive_plan(&mut walker, &plan)?;
-    Ok(([first, second], layer.map().clone()))
+    let mode = Mode::Paper(CpmConfig::online());
+    let mut run = CpmRun::begin(body, config, &PATTERNS, mode, seed)?;
+    let first = run.pursue(Aim::Find(Landmark::Goal), |_, _, _| {})?;
+    lift(run.walker.body_mut());
+    run.layer.placed_at_start(&mut run.walker)?;
+    let second = run.drive_to_goal()?.unwrap();
+    Ok(([first, second], run.layer.map().clone()))
 }
 
 #[test]
