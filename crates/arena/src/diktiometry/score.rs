@@ -57,9 +57,8 @@ pub struct MapScore {
 type Way = (u32, Direction);
 
 /// Scores a map; `None` is an empty one. `visits` are all places the robot was at, from the first
-/// on; `gone` are the ways
-/// it took; `truth` are the places now. Action n of the map is direction n of [`Direction::ALL`].
-/// O(visits · log places + links · log links).
+/// on; `gone` are the ways it took; `truth` are the places now. Action n of the map is direction n
+/// of [`Direction::ALL`]. O(visits · log places + links · log links).
 #[must_use]
 pub fn score(
     map: Option<&Observer>,

@@ -20,14 +20,13 @@ use super::{
 /// Each action is one control routine, from a place to the next. Its tasks:
 ///
 /// - **Explore**: a random walk that heeds the map's advice. By [`ExploreUntil::Whole`] it ends
-/// when
-///   nothing is left to try at any place that can be reached on the map. Moreover, no two places
-/// may
-///   be one, and the map must not contradict itself. It gives up a map that has contradicted itself
-///   for 20 moves. It also gives up a map that was not folded for five moves per place, at most 300
-///   moves, and at once a map that grows without end. If the robot was carried elsewhere, so that
-///   the view differs from that at its last stop, it begins another map there. By the paper's rule
-///   of matching, or on a map that it was given, it gives up.
+///   when nothing is left to try at any place that can be reached on the map. Moreover, no two
+///   places may be one, and the map must not contradict itself. It gives up a map that has
+///   contradicted itself for 20 moves. It also gives up a map that was not folded for five
+///   moves per place, at most 300 moves, and at once a map that grows without end. If the robot
+///   was carried elsewhere, so that the view differs from that at its last stop, it begins
+///   another map there. By the paper's rule of matching, or on a map that it was given, it
+///   gives up.
 /// - **Reach** a place: the map's plan, made again after every routine. It gives up if the map
 ///   knows no way.
 /// - **Reach** a landmark: the plan to where it was sensed last, at a place or on the way between
@@ -71,7 +70,7 @@ pub enum ExploreUntil {
     /// After this many moves, on its own map or on one that it was given. The robot begins at a
     /// place, and nobody carries it. It gives up a map that grows without end.
     Moves(u32),
-    /// Never, as the paper's robot, whatever becomes of its map: the caller ends the run.
+    /// Never, as the paper's robot, whatever becomes of its map. The caller ends the run.
     /// It begins at a place, and nobody carries it.
     Never,
 }
