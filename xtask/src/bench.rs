@@ -12,7 +12,7 @@ pub(crate) fn run(name: Option<&str>) -> Result<()> {
     succeed(cargo("bench --workspace --bench").arg(name.unwrap_or("*")))?;
     if name.is_none() {
         succeed(&mut cargo(
-            "test --release --package tolman-sim --test sim -- --ignored --nocapture",
+            "test --release --package tolman-sim --test it -- --ignored --nocapture",
         ))?;
     }
     eprintln!("Figures worth keeping go to docs/performance.md, with the machine they came from.");

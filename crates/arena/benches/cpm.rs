@@ -3,7 +3,7 @@
 
 extern crate alloc;
 
-#[path = "../tests/cpm/world/mod.rs"]
+#[path = "../tests/it/cpm/world/mod.rs"]
 #[expect(dead_code, unused_imports, reason = "the tests use the rest")]
 mod world;
 

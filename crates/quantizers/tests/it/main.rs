@@ -7,6 +7,7 @@ extern crate alloc;
 mod bad_input;
 mod equilibrium;
 mod gng;
+mod no_allocation;
 mod replay;
 mod saving;
 mod search;

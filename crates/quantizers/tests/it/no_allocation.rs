@@ -1,7 +1,5 @@
 //! Once a network has grown, an input allocates nothing.
 
-#![expect(clippy::unwrap_used, reason = "a test may fail")]
-
 use core::hint::black_box;
 
 use rand::{RngExt, SeedableRng};

@@ -1,5 +1,4 @@
 //! Every action ends, whatever the ring, the drive and the corridor.
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

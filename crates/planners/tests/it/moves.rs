@@ -1,13 +1,5 @@
 //! Explorers of steps on mazes that are seen as far as the next wall. What they prove is true, and
 //! the way on which they prove it is pinned.
-#![cfg(feature = "alloc")]
-#![expect(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a failed unwrap is a failed test"
-)]
-
-extern crate alloc;
 
 use alloc::collections::BTreeSet;
 
@@ -148,7 +140,7 @@ fn the_ways_of_explorers_are_what_they_were() {
         .flat_map(|(side, share, seed)| ways(side, share, seed))
         .collect();
     if std::env::var_os("TOLMAN_PIN").is_some() {
-        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/moves.txt");
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/it/moves.txt");
         std::fs::write(path, found.join("\n") + "\n").unwrap();
     }
     let expected: Vec<&str> = include_str!("moves.txt").lines().collect();

@@ -1,11 +1,6 @@
 //! CPM's e-puck on the simulator: it follows paths, looks round, finds the middle of junctions, and
 //! touches nothing.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test that cannot set itself up has failed"
-)]
-
 use core::f64::consts::PI;
 
 use tolman_control::epuck::{

@@ -1,8 +1,6 @@
 //! MSLST and its baselines drive a robot that no simulator made: a few lines of kinematics in a few
 //! corridors.
 
-#![allow(clippy::unwrap_used, reason = "helpers of tests")]
-
 use core::convert::Infallible;
 
 use rand::RngExt;

@@ -1,5 +1,5 @@
-//! Other programs read the graphs: `cargo test -p tolman-formats --test graph -- --ignored` fetches
-//! networkx and evo from PyPI.
+//! Other programs read the graphs: `cargo test -p tolman-formats --test it -- --ignored graph`
+//! fetches networkx and evo from PyPI.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,6 +1,5 @@
 //! Speed runs: the search against plain Dijkstra on an explicit graph, explorations against the
 //! checker.
-#![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 
 use std::path::PathBuf;
 

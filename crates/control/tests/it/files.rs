@@ -1,6 +1,4 @@
 //! Layers and configurations, saved and loaded; numbers without sense are refused.
-#![cfg(feature = "serde")]
-#![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 
 use core::fmt::Debug;
 

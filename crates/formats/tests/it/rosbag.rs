@@ -1,9 +1,5 @@
 //! Bags of ROS 2, written by the crate that reads them and by another program.
-#![cfg(feature = "mcap")]
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 #![expect(clippy::float_cmp, reason = "what was written is read to the bit")]
-
-extern crate alloc;
 
 use alloc::collections::BTreeMap;
 use std::fs;
@@ -243,7 +239,7 @@ with open('drive.mcap', 'wb') as file:
 ";
 
 #[test]
-#[ignore = "fetches mcap-ros2-support from PyPI: cargo test -p tolman-formats --features mcap --test rosbag -- --ignored"]
+#[ignore = "fetches mcap-ros2-support from PyPI: cargo test -p tolman-formats --features mcap --test it -- --ignored rosbag"]
 fn what_others_have_written_is_read() {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("rosbag");
     fs::create_dir_all(&folder).unwrap();

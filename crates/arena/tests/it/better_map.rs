@@ -1,8 +1,5 @@
 //! The better MSLST's map of the Large maze: its memory, and how it comes back from its file. Also
 //! what happens in a robot or a world other than the learned one.
-#![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
-
-extern crate alloc;
 
 use alloc::sync::Arc;
 use std::sync::OnceLock;
@@ -25,7 +22,7 @@ fn robot() -> LaserPioneerConfig {
 fn course() -> &'static Course {
     static COURSE: OnceLock<Course> = OnceLock::new();
     COURSE.get_or_init(|| {
-        let maze = tolman_maze::read(include_str!("../mazes/large.maze")).unwrap();
+        let maze = tolman_maze::read(include_str!("../../mazes/large.maze")).unwrap();
         Course::for_body("Large", &maze, &body()).unwrap()
     })
 }

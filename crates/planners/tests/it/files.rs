@@ -1,7 +1,5 @@
 //! Configurations of planners, saved and loaded; what has no sense is refused where a planner takes
 //! it.
-#![cfg(feature = "serde")]
-#![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 
 use core::fmt::Debug;
 

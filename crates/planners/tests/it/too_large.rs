@@ -1,5 +1,4 @@
 //! A maze that does not fit is refused, by its size, wherever one is handed over.
-#![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 
 use tolman_maze::{Cell, Direction, Grid, Maze};
 use tolman_planners::moves::{MoveExplorer, MoveExplorerConfig, RolloutConfig, Rollouts};

@@ -1,5 +1,4 @@
 //! Each layer by itself, on scans worked out by hand.
-#![expect(clippy::unwrap_used, reason = "a test's helpers may panic")]
 
 use proptest::prelude::*;
 use rand_chacha::ChaCha8Rng;

@@ -1,12 +1,5 @@
 //! The robot of the place map wanders in arenas by seed: it gets everywhere and out of everywhere.
 
-#![expect(
-    clippy::unwrap_used,
-    reason = "a test that cannot set itself up has failed"
-)]
-
-extern crate alloc;
-
 use alloc::collections::BTreeSet;
 
 use tolman_arena::gngslam::{DataSet, Pitch, gather};

@@ -1,6 +1,5 @@
 //! CPM on a robot without the simulator: proximity by ray casting in a few lines, wheels by plane
 //! geometry.
-#![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
 use core::convert::Infallible;
 use core::ops::ControlFlow;
@@ -29,7 +28,7 @@ const WIDTH: f64 = 0.25;
 const STEP_US: u64 = 13_000;
 
 /// A loop with two forks, from each of which a way leads to a dead end; the goal is in one of them.
-const MAZE: &str = include_str!("../mazes/forks.maze");
+const MAZE: &str = include_str!("../../mazes/forks.maze");
 
 /// An e-puck in a maze of thin walls, without noise.
 #[derive(Clone)]

@@ -1,5 +1,4 @@
 //! Place maps of the paper's pitch lie on it as it is, and not as its mirror image.
-#![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;

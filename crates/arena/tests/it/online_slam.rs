@@ -1,5 +1,4 @@
 //! The system that corrects its pose while it learns, in the arenas of the place map.
-#![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 
 use tolman_arena::Simulated;
 use tolman_arena::gngslam::Pitch;

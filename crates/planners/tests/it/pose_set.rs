@@ -1,5 +1,4 @@
 //! Lost mice: the true pose is never ruled out, and is found where the maze is not symmetric.
-#![expect(clippy::unwrap_used, reason = "a failed unwrap is a failed test")]
 
 use proptest::prelude::*;
 use rand_chacha::ChaCha8Rng;

@@ -1,0 +1,14 @@
+//! CPM from outside: the paper's worked examples, and explorations of random mazes of corridors.
+
+mod adversity;
+mod bad_input;
+mod explorations;
+mod files;
+mod localization;
+mod matching;
+mod pioneer;
+mod targets;
+mod trials;
+mod walks;
+mod wire;
+mod world;
