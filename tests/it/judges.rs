@@ -1,7 +1,5 @@
 //! The arena, a file's check and the tables ask one judge.
 
-use std::sync::Arc;
-
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_arena::contest::{Condition, Contest, Moment, TrueGraph};
@@ -16,7 +14,7 @@ const MAPS: usize = 60;
 
 #[test]
 fn a_map_in_a_file_is_right_exactly_if_the_arena_called_it_right() {
-    let schooling = Arc::new(Schooling::default());
+    let schooling = Schooling::default();
     let registry = Registry::current();
     let (mut maps, mut right) = (0, 0);
     for system in registry.learners() {

@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use tolman_arena::registry::Registry;
+use tolman_arena::registry::{Registry, SystemEntry};
 use tolman_papers::real::{MappedLog, RobotLog};
 
 use crate::errors::{reasons, unread, wrong};
@@ -16,7 +16,8 @@ use crate::map::PyMap;
 #[pyo3(signature = (path, system = "scan-matching"))]
 pub(crate) fn map_log(py: Python<'_>, path: PathBuf, system: &str) -> PyResult<PyMap> {
     let registry = Registry::current();
-    let mapper = registry.system(system).and_then(|found| found.log_mapper());
+    let found = registry.system(system);
+    let mapper = found.and_then(SystemEntry::log_mapper);
     let Some(mapper) = mapper else {
         let maps = registry.systems.iter();
         let maps = maps.filter(|system| system.log_mapper().is_some());

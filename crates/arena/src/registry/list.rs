@@ -135,8 +135,8 @@ mod tests {
         }
         for system in &registry.systems {
             for name in [system.name(), system.title()] {
-                let found = registry.system(name).map(|found| found.name());
-                assert_eq!(found, Some(system.name()), "{name}");
+                let found = registry.system(name).unwrap();
+                assert_eq!(found.name(), system.name(), "{name}");
             }
         }
         for (former, now) in FORMER {

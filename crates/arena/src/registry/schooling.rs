@@ -1,14 +1,11 @@
 use std::sync::OnceLock;
 
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
-use tolman_sim::robots::LaserPioneer;
-use tolman_systems::cpm::{CommonPatterns, Lesson, RingAsEpuck, Walker, soinn, wander};
+use tolman_systems::cpm::CommonPatterns;
 
 use crate::BoxError;
 use crate::course::Course;
-use crate::cpm::{self, epuck_course, ring_measures};
-use crate::pioneer::{CORRIDOR_WIDTH, calibrated};
+use crate::cpm::{self, epuck_course};
+use crate::pioneer::CORRIDOR_WIDTH;
 
 /// Knowledge that systems learn once, before they are sent out: CPM's common patterns (section
 /// 4.1).
@@ -23,9 +20,6 @@ const LEARNING_MAZE: &str = include_str!("../../mazes/cpm-learning.maze");
 
 /// Seed for the knowledge that is learned before a robot is sent out.
 const SEED: u64 = 1;
-
-/// Number of observations in the lesson on the Pioneer.
-const LESSON: usize = 300;
 
 impl Schooling {
     /// Returns the common patterns that the e-puck learns in the learning maze.
@@ -61,14 +55,7 @@ impl Schooling {
 fn pioneers_lesson(width: f64) -> Result<CommonPatterns, BoxError> {
     let maze = tolman_maze::read(LEARNING_MAZE)?.maze;
     let course = Course::new("learning", maze, width)?;
-    let measures = ring_measures(&calibrated(), width);
-    let pioneer = LaserPioneer::new(calibrated())?;
-    let pioneer = course.robot_at(course.start()?, pioneer, SEED)?;
-    let robot = RingAsEpuck::new(pioneer, measures)?;
-    let mut walker = Walker::new(robot, measures.walker_config());
-    let mut rng = ChaCha8Rng::seed_from_u64(SEED);
-    let seen = wander(&mut walker, Lesson::Observations(LESSON), &mut rng)?;
-    Ok(CommonPatterns::learn(&seen, soinn())?)
+    Ok(cpm::learn_on_pioneer(&course, SEED)?)
 }
 
 fn taught(

@@ -73,12 +73,12 @@ impl From {
         let map = map_text_or(path, |text| Former::of_text(path, text))?;
         match map {
             MapOr::Map(map) => Ok(Self {
-                map: Some(map),
+                map: Some(*map),
                 former: None,
             }),
             MapOr::Other(former) => {
                 let map = former.run().map();
-                let map = map.map(|FormerMap { name, text }| of_text(name, text.clone()));
+                let map = map.map(|FormerMap { name, text }| of_text(name, text));
                 Ok(Self {
                     map: map.transpose()?,
                     former: Some(former),
@@ -182,7 +182,7 @@ pub(super) fn carry_out(
             setup.world
         )));
     };
-    let map = of_text(&arguments.out, text.clone())?;
+    let map = of_text(&arguments.out, &text)?;
     let map = system.map(&map).map_err(of_registry)?;
     file::write(&arguments.out, text)?;
     let judged = (task == Task::Explore && is_known).then(|| {

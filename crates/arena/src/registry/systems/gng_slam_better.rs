@@ -312,9 +312,9 @@ impl LearnedMap for MapFile {
 
     fn drawing(&self, terrain: &Terrain) -> Result<Drawing, BoxError> {
         let course = course_of(self, terrain)?;
-        let laid = LaidOver::of(&self.graph, &self.sites).ok_or_else(|| {
-            "the map has no true positions of its places, so it cannot be drawn over a world: leave --svg out"
-        })?;
+        let laid = LaidOver::of(&self.graph, &self.sites).ok_or(
+            "the map has no true positions of its places, so it cannot be drawn over a world: leave --svg out",
+        )?;
         let mut map = view(self);
         for place in &mut map.places {
             place.position = place.position.map(|at| laid.world_from_map.transform(at));

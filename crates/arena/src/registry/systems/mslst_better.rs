@@ -181,9 +181,9 @@ impl LearnedMap for BetterMapFile {
 
     fn drawing(&self, terrain: &Terrain) -> Result<Drawing, BoxError> {
         let course = terrain.course(&self.origin.world, &body())?;
-        let laid = laid(self).ok_or_else(|| {
-            "the map has no true positions of its places, so it cannot be drawn over a world: leave --svg out"
-        })?;
+        let laid = laid(self).ok_or(
+            "the map has no true positions of its places, so it cannot be drawn over a world: leave --svg out",
+        )?;
         let mut map = self.chart.view();
         for place in &mut map.places {
             place.position = place.position.map(|at| laid.world_from_map.transform(at));

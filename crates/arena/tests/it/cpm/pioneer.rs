@@ -14,7 +14,7 @@ use tolman_systems::cpm::{Cpm, CpmConfig, RingAsEpuck, WalkerConfig};
 const STEP_LIMIT: u32 = 100_000;
 
 /// A loop with two forks, each with a way to a dead end; one of these is the goal.
-const FORKS: &str = include_str!("../../mazes/forks.maze");
+const FORKS: &str = include_str!("../../../mazes/forks.maze");
 
 /// Returns a maze as a course with corridors for a Pioneer.
 fn course(text: &str) -> Course {
@@ -83,7 +83,7 @@ fn a_pioneer_learns_a_maze_by_its_laser_and_goes_to_the_goal() {
 /// Learns as in the paper: with patterns of a learning maze and without dead reckoning.
 #[test]
 fn a_pioneer_learns_as_the_paper_s_robot_does() {
-    let learning = course(include_str!("../../mazes/cpm-learning.maze"));
+    let learning = course(include_str!("../../../mazes/cpm-learning.maze"));
     let patterns = learn_on_pioneer(&learning, 1).unwrap();
     let forks = course(FORKS);
     let (epuck, config) = placed(&forks, 1);

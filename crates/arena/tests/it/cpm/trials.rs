@@ -12,11 +12,11 @@ fn course(text: &str) -> Course {
 
 /// Returns Maze 1 of the paper.
 pub(crate) fn maze_1() -> Course {
-    course(include_str!("../../mazes/cpm-1.maze"))
+    course(include_str!("../../../mazes/cpm-1.maze"))
 }
 
 /// Patterns learned in the learning maze.
 pub(crate) static PATTERNS: LazyLock<CommonPatterns> = LazyLock::new(|| {
-    let course = course(include_str!("../../mazes/cpm-learning.maze"));
+    let course = course(include_str!("../../../mazes/cpm-learning.maze"));
     learn(&course, 1).unwrap()
 });

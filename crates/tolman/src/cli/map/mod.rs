@@ -187,13 +187,13 @@ fn read(app: &App<'_>, path: &Path) -> Result<(MapText, Box<dyn LearnedMap>), Fa
 /// Bad input with the file's name.
 pub(in crate::cli) fn map_text(path: &Path) -> Result<MapText, Failure> {
     match map_text_or(path, |_| Ok(None::<Infallible>))? {
-        MapOr::Map(map) => Ok(map),
+        MapOr::Map(map) => Ok(*map),
     }
 }
 
 /// A learned map's file, or another file that the caller accepts instead.
 pub(in crate::cli) enum MapOr<T> {
-    Map(MapText),
+    Map(Box<MapText>),
     Other(T),
 }
 
@@ -213,7 +213,7 @@ pub(in crate::cli) fn map_text_or<T>(
         .or_bad_input()?;
     Ok(match other(&text)? {
         Some(other) => MapOr::Other(other),
-        None => MapOr::Map(of_text(path, text)?),
+        None => MapOr::Map(Box::new(of_text(path, &text)?)),
     })
 }
 
@@ -221,9 +221,9 @@ pub(in crate::cli) fn map_text_or<T>(
 ///
 /// # Errors
 /// Bad input with the file's name.
-pub(in crate::cli) fn of_text(path: &Path, text: String) -> Result<MapText, Failure> {
+pub(in crate::cli) fn of_text(path: &Path, text: &str) -> Result<MapText, Failure> {
     let name = path.display().to_string();
-    MapText::read(name.clone(), text.clone())
-        .map_err(|error| Kind::Map.explain(&text, &name, error))
+    MapText::read(name.clone(), text.to_owned())
+        .map_err(|error| Kind::Map.explain(text, &name, error))
         .or_bad_input()
 }
