@@ -251,13 +251,14 @@ impl Arguments {
     }
 }
 
-/// Returns the name of the robot that carries a contestant, in tables.
-fn robot_title(contestant: Contestant, robot: Option<RobotEntry>) -> &'static str {
+/// Returns the robot that carries a contestant. Baselines drive the laser Pioneer.
+fn carrier(contestant: Contestant, robot: Option<RobotEntry>) -> RobotEntry {
     let own = || Registry::current().robot(contestant.own_robot());
-    match contestant.baseline() {
-        Some(_) => RobotEntry::LASER_PIONEER.title,
-        None => robot.or_else(own).map_or("", |robot| robot.title),
-    }
+    let robot = match contestant.baseline() {
+        Some(_) => None,
+        None => robot.or_else(own),
+    };
+    robot.unwrap_or(RobotEntry::LASER_PIONEER)
 }
 
 fn line<'a>(
@@ -274,8 +275,8 @@ fn line<'a>(
         LocateOutcome::Abstained { .. } => "abstained",
     });
     Line {
-        system: contestant.title(),
-        robot: robot_title(contestant, robot),
+        system: contestant.name(),
+        robot: carrier(contestant, robot).name,
         world: &world.name,
         seed: world.seed,
         abstained: record.abstained.as_deref(),
@@ -348,7 +349,7 @@ fn table(
             out,
             "{:18} {:13} {:>6} {:>9} {:>5} {:>7} {:>6} {:>7} {:>13}",
             contestant.title(),
-            robot_title(*contestant, robot),
+            carrier(*contestant, robot).title,
             records.len(),
             count(&|r| r.abstained.is_some()),
             of(&|r| judged(r).is_some_and(|j| j.is_right)),

@@ -34,7 +34,7 @@ fn files_are_worlds_too_and_every_world_is_a_line_of_json() {
     assert_eq!(lines.len(), 15);
     let cpm = lines
         .iter()
-        .find(|line| line["system"] == "CPM Better")
+        .find(|line| line["system"] == "cpm-better")
         .unwrap();
     assert_eq!(
         (&cpm["right"], &cpm["world"]),

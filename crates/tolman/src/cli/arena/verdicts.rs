@@ -7,7 +7,7 @@ use tolman_arena::contest::{Contest, ContestError, ContestRecord};
 use tolman_arena::registry::{RobotEntry, Schooling};
 use tolman_papers::arena::{ArenaWorld, DrawnWorld, PoolRound, RungJudgement, VerdictPool};
 
-use super::{Arguments, Contestant, Failure, MOST_WORLDS, robot_title};
+use super::{Arguments, Contestant, Failure, MOST_WORLDS, carrier};
 
 /// Number of right maps, and of wrong maps, to collect for each system.
 const ENOUGH: u32 = 100;
@@ -69,7 +69,7 @@ fn row(
         out,
         "{:18} {:13} {:>5} {:>5} {:>9} {:>15} {:>15} {:>12} {:>6}",
         contestant.title(),
-        robot_title(contestant, robot),
+        carrier(contestant, robot).title,
         judged.right,
         judged.wrong,
         judged.abstained,
