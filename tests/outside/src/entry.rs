@@ -15,6 +15,11 @@ impl SystemEntry for PacesEntry {
         FILES.system
     }
 
+    /// Its map has paces, and no places.
+    fn claims(&self) -> bool {
+        false
+    }
+
     fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
         let (course, robot, layers) = setup.laser_robot()?;
         let origin = setup.origin(&course);

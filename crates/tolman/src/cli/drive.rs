@@ -74,7 +74,7 @@ pub(super) fn carry_out(
     let terrain = arguments.sent_out.terrain()?;
     let schooling = Schooling::default();
     let learner = &maps[0].origin.robot;
-    let robot = arguments.sent_out.robot_or(app, system, learner)?;
+    let robot = arguments.sent_out.robot(app, system, learner)?;
     let setup = arguments.sent_out.setup(&terrain, robot, &schooling);
     let context = || {
         let context = format!("{} cannot drive in {}", system.name(), setup.world);

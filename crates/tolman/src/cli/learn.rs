@@ -4,9 +4,9 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
-use serde_json::{Value, json};
+use serde_json::json;
 use tolman_arena::Outing;
-use tolman_arena::contest::{Claim, TrueVisits};
+use tolman_arena::contest::{Claim, Evidence, TrueVisits};
 use tolman_robot::{Goal, Landmark, Task};
 
 use super::looks::Looks;
@@ -16,7 +16,7 @@ use super::sent_out::SentOut;
 use super::unfinished::{Former, FormerMap, Keeper};
 use super::words::words;
 use super::{App, Failure, OrBadInput, file, of_registry};
-use tolman_arena::registry::{MapText, Schooling};
+use tolman_arena::registry::{LearnedMap, MapText, Schooling, SystemEntry};
 
 /// Lets a system learn a map of a maze or a world, and writes the map to a file
 #[derive(clap::Args)]
@@ -135,7 +135,12 @@ pub(super) fn carry_out(
     let (from, former) = from.map_or((None, None), |From { map, former }| (map, former));
     let terrain = arguments.sent_out.terrain()?;
     let schooling = Schooling::default();
-    let robot = arguments.sent_out.robot(app, system)?;
+    // A map is continued by the robot that learned it.
+    let usual = match &from {
+        Some(map) => &map.origin.robot,
+        None => system.own_robot(),
+    };
+    let robot = arguments.sent_out.robot(app, system, usual)?;
     let mut setup = arguments.sent_out.setup(&terrain, robot, &schooling);
     setup.from = from.as_ref();
     let context = || format!("{} cannot learn {}", system.name(), setup.world);
@@ -185,25 +190,8 @@ pub(super) fn carry_out(
     let map = of_text(&arguments.out, &text)?;
     let map = system.map(&map).map_err(of_registry)?;
     file::write(&arguments.out, text)?;
-    let judged = (task == Task::Explore && is_known).then(|| {
-        let rule = system.places();
-        let judge = || truth.complaint(&outing.map(), outing.course(), rule).ok();
-        map.judged_apart().or_else(judge)
-    });
-    let judged = judged.flatten();
-    // A system that does not claim that its map is whole is not reproached for it.
-    let claims = system.claims() || outing.course().is_free();
-    let found = judged.clone().flatten();
-    let complaint = own.or_else(|| found.clone().filter(|_| claims));
-    // In such a world nothing else was to be expected.
-    let unfit = match outing.course().is_free() {
-        true => None,
-        false => system.abstains(&outing.course().maze),
-    };
-    let complaint = match (complaint, unfit) {
-        (Some(complaint), Some(unfit)) => Some(format!("{complaint}; {unfit}")),
-        (complaint, _) => complaint,
-    };
+    let is_judged = task == Task::Explore && is_known;
+    let verdict = Verdict::of(system, &*outing, &*map, is_judged.then_some(&truth), own);
     if arguments.looks.json {
         let json = json!({
             "system": system.name(),
@@ -212,8 +200,8 @@ pub(super) fn carry_out(
             "steps": ended.steps,
             "actions": ended.actions,
             "bumps": outing.bumped().len(),
-            "right": judged.map(|found| found.is_none()),
-            "complaint": complaint.clone().map_or(Value::Null, Value::String),
+            "right": verdict.judged.as_ref().map(Option::is_none),
+            "complaint": verdict.complaint,
             "map": map.json(),
         });
         writeln!(out, "{json:#}")?;
@@ -222,17 +210,53 @@ pub(super) fn carry_out(
         for line in map.lines().iter().take(MOST_LINES) {
             writeln!(out, "{line}")?;
         }
-        if let (Some(found), None) = (&found, &complaint) {
+        if let (Some(Some(found)), None) = (&verdict.judged, &verdict.complaint) {
             writeln!(out, "as a map of places: {found}")?;
         }
         tell_replay(&arguments.looks, out)?;
     }
-    match complaint {
+    match verdict.complaint {
         None => Ok(()),
         Some(complaint) => Err(Failure::Failed(anyhow!(
             "the map in {} is wrong or unfinished: {complaint}",
             arguments.out.display()
         ))),
+    }
+}
+
+/// What is known of a learned map.
+struct Verdict {
+    /// The judge's: `Some(None)` if the map is right, or why not; `None` if it was not judged.
+    judged: Option<Option<String>>,
+    /// Why the map is wrong or unfinished; `None` if it is neither, as far as anyone can tell.
+    complaint: Option<String>,
+}
+
+impl Verdict {
+    /// Returns the verdict on the map of `outing` by the evidence `truth`, and by the system's own
+    /// complaint.
+    fn of(
+        system: &dyn SystemEntry,
+        outing: &dyn Outing,
+        map: &dyn LearnedMap,
+        truth: Option<&Evidence>,
+        own: Option<String>,
+    ) -> Self {
+        let course = outing.course();
+        let judged = truth.and_then(|truth| {
+            let judge = || truth.complaint(&outing.map(), course, system.places());
+            map.judged_apart().or_else(|| judge().ok())
+        });
+        // A system that does not claim that its map is whole is not reproached for it.
+        let claims = system.claims() || course.is_free();
+        let found = judged.clone().flatten().filter(|_| claims);
+        let complaint = own.or(found).map(|complaint| {
+            match system.abstains(&course.maze).filter(|_| !course.is_free()) {
+                Some(unfit) => format!("{complaint}; {unfit}"),
+                None => complaint,
+            }
+        });
+        Self { judged, complaint }
     }
 }
 

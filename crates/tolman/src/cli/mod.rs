@@ -177,17 +177,12 @@ impl App<'_> {
         })
     }
 
-    /// Returns the robot called `name` if it can carry a system; without a name, the one that the
-    /// system is made for.
+    /// Returns the robot called `name` if it can carry a system.
     ///
     /// # Errors
     /// Bad input that says why not.
-    fn robot_for(
-        &self,
-        system: &dyn SystemEntry,
-        name: Option<&str>,
-    ) -> Result<RobotEntry, Failure> {
-        let robot = self.robot(name.unwrap_or(system.own_robot()))?;
+    fn robot_for(&self, system: &dyn SystemEntry, name: &str) -> Result<RobotEntry, Failure> {
+        let robot = self.robot(name)?;
         match system.why_not(&robot) {
             None => Ok(robot),
             Some(why) => {

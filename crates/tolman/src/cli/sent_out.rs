@@ -76,8 +76,7 @@ impl SentOut {
             .with("--steps", self.steps)
     }
 
-    /// Returns the robot that carries a system: the one that was named, or the one that the system
-    /// is made for.
+    /// Returns the robot that carries a system: the one that was named, or else `usual`.
     ///
     /// # Errors
     /// Bad input if there is no such robot, or it cannot carry the system.
@@ -85,21 +84,9 @@ impl SentOut {
         &self,
         app: &App<'_>,
         system: &dyn SystemEntry,
-    ) -> Result<RobotEntry, Failure> {
-        app.robot_for(system, self.robot.as_deref())
-    }
-
-    /// Returns the same, with `usual` in place of the one that the system is made for.
-    ///
-    /// # Errors
-    /// As [`robot`](Self::robot).
-    pub(super) fn robot_or(
-        &self,
-        app: &App<'_>,
-        system: &dyn SystemEntry,
         usual: &str,
     ) -> Result<RobotEntry, Failure> {
-        app.robot_for(system, Some(self.robot.as_deref().unwrap_or(usual)))
+        app.robot_for(system, self.robot.as_deref().unwrap_or(usual))
     }
 
     /// Returns the setup with which a system is sent out on a robot.
