@@ -290,14 +290,31 @@ mod tests {
             let told = format!("{:?}", origin_of(text).unwrap_err());
             assert!(told.starts_with(expected), "{told} for {expected}");
         };
-        let version = |number: &str| text.replace(":2,", number);
+        let version = |number: &str| text.replace(":3,", number);
         refused("", "Header");
         refused("{}", "Header");
         refused(&text[..text.len() / 2], "CutOff");
         refused(&text.replace("tolman-map", "soup"), "Format");
         refused(&version(":1,"), "FormerVersion { found: 1");
-        refused(&version(":3,"), "LaterVersion { found: 3");
+        refused(&version(":4,"), "LaterVersion { found: 4");
         refused(&text.replace("\"system\":", "\"soup\":"), "Header");
+    }
+
+    #[test]
+    fn a_file_of_version_2_says_what_its_system_is_called_now() {
+        for (former, part, now) in [
+            ("mslst", r#""part":1"#, "mslst"),
+            ("diktiometry", r#""part":1"#, "diktiometry-better"),
+            ("gngslam", r#""part":1"#, "gng-slam-better"),
+            ("cpm", r#""mode":{"reckoned":{}}"#, "cpm-better"),
+            ("cpm", r#""mode":{"unlearned":{}}"#, "cpm-better"),
+            ("cpm", r#""mode":{"paper":{}}"#, "cpm"),
+        ] {
+            let text = format!(
+                r#"{{"format":"tolman-map","version":2,"system":"{former}","world":"J","robot":"e-puck","seed":1,{part}}}"#
+            );
+            assert_eq!(origin_of(&text).unwrap().0, now, "{text}");
+        }
     }
 
     #[test]
