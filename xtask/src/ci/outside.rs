@@ -51,7 +51,6 @@ pub(crate) fn check() -> Result<()> {
         "map show paces.json",
         "drive --map paces.json --maze teeth.maze --seed 2",
         "learn --system paces --robot tank --maze teeth.maze --out tank.json --trace tank.jsonl --replay tank.html",
-        "learn --system mslst-better --robot tank --maze teeth.maze --out better.json",
         "systems --json",
         "arena --system paces --family all --worlds 1",
         "arena --system mslst-better --robot tank --family teeth --condition doors --worlds 1",
