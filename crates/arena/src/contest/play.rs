@@ -1061,7 +1061,7 @@ mod tests {
                 maze: &maze,
                 name: "blocks",
                 condition,
-                starts: 1,
+                starts: 0,
                 seed: 3,
                 stopwatch: None,
             };
@@ -1103,7 +1103,7 @@ mod tests {
                 maze: &maze,
                 name: "blocks",
                 condition,
-                starts: 1,
+                starts: 0,
                 seed: 3,
                 stopwatch: None,
             };
