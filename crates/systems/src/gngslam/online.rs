@@ -70,24 +70,6 @@ impl OnlineSlamConfig {
             map: PlaceGraphConfig::indoors(),
         }
     }
-
-    /// Returns our values for a round robot of this `radius`, m, that looks all round from its
-    /// middle. It drives and turns at these fractions of its full rates, 0 to 1: some 0.04 m and
-    /// 0.2 rad per time step. A new heading alone makes no new place.
-    #[must_use]
-    pub const fn all_round(radius: f64, translate: f64, turn: f64) -> Self {
-        let mut config = Self::pioneer_2dx();
-        config.drive.translate = translate;
-        config.drive.turn = turn;
-        config.explore = ExplorationPolicy::ToTheUnknown;
-        config.quiet_looks = 20;
-        config.lane = 0.6 * radius;
-        config.drive.limits.ahead = radius + 0.25;
-        config.drive.limits.side = radius + 0.01;
-        config.give_way = 0.95;
-        config.map.place_turn = 2.0 * PI;
-        config
-    }
 }
 
 /// Choice of the next goal while an [`OnlineSlam`] explores.
