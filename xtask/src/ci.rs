@@ -4,13 +4,15 @@
 pub(crate) mod bare_metal;
 mod firmware;
 mod licences;
-mod msrv;
+mod oldest;
 mod outside;
 mod packages;
 
 use core::time::Duration;
 use std::env;
-use std::process::Command;
+use std::fs::{self, File};
+use std::path::PathBuf;
+use std::process::{Child, Command};
 use std::time::Instant;
 
 use anyhow::{Result, bail, ensure};
@@ -61,11 +63,9 @@ const STEPS: &[Step] = &[
     ("advisories", Static, || {
         with("cargo-deny", "cargo install cargo-deny", advisories)
     }),
-    ("lints", Static, || {
-        passes("clippy --workspace --all-features --all-targets --quiet -- --deny warnings")
-    }),
-    ("api docs", Static, || passed(docs::api())),
-    ("msrv", Static, msrv::check),
+    ("lints", Static, oldest::lints),
+    ("msrv", Static, oldest::suffices),
+    ("api docs", Static, || passed(docs::api(oldest::cargo))),
     ("tests", Tests, tests),
     ("doc tests", Tests, || {
         passes("test --workspace --all-features --doc --quiet")
@@ -84,6 +84,10 @@ const STEPS: &[Step] = &[
     }),
     ("bare metal", Golden, bare_metal::check),
     ("board", Golden, board::check),
+    // The lints of the compiler that the tests use.
+    ("new lints", Thorough, || {
+        passes("clippy --workspace --all-features --all-targets --quiet -- --deny warnings")
+    }),
     // The build of a user, without the features that only the steps above switch on.
     ("plain build", Thorough, || {
         passes("check --workspace --quiet")
@@ -151,6 +155,11 @@ pub(crate) struct Choice {
 }
 
 impl Choice {
+    /// Returns whether all steps are to run that a change must pass.
+    fn is_whole(&self) -> bool {
+        self.job.is_none() && self.steps.is_empty()
+    }
+
     /// Returns whether a step is to run.
     fn has(&self, step: &Step) -> bool {
         match self.job {
@@ -158,6 +167,46 @@ impl Choice {
             None if self.steps.is_empty() => self.thorough || step.1 != Thorough,
             None => self.steps.iter().any(|name| name == step.0),
         }
+    }
+}
+
+/// The steps that a whole run starts beside those that follow: they have a compiler and a folder of
+/// their own, and neither they nor the others always keep two cores busy.
+const BESIDE: [&str; 3] = ["lints", "msrv", "api docs"];
+
+/// The run of the steps beside the others.
+struct Beside {
+    child: Child,
+    /// What it writes, shown when it is over.
+    log: PathBuf,
+}
+
+impl Beside {
+    fn start(choice: &Choice) -> Result<Self> {
+        let log = workspace::target_folder()?.join("beside.txt");
+        let file = File::create(&log)?;
+        let mut command = Command::new(env::current_exe()?);
+        command.arg("ci").stdout(file.try_clone()?).stderr(file);
+        for step in BESIDE {
+            command.args(["--step", step]);
+        }
+        for step in choice
+            .may_miss
+            .iter()
+            .filter(|step| BESIDE.contains(&step.as_str()))
+        {
+            command.args(["--may-miss", step]);
+        }
+        let child = command.spawn()?;
+        Ok(Self { child, log })
+    }
+
+    /// Waits for its end, shows what it wrote, and returns whether it passed.
+    fn end(mut self) -> Result<Outcome> {
+        let status = self.child.wait()?;
+        eprint!("\n{}", fs::read_to_string(&self.log)?);
+        ensure!(status.success(), "of {}: {status}", BESIDE.join(", "));
+        Ok(Outcome::Passed)
     }
 }
 
@@ -179,7 +228,14 @@ pub(crate) fn run(choice: &Choice) -> Result<()> {
     let steps = STEPS.iter().filter(|step| choice.has(step));
     let mut table = Vec::new();
     let mut failures = 0;
+    let mut beside = None;
     for (name, _, step) in steps {
+        if choice.is_whole() && BESIDE.contains(name) {
+            if beside.is_none() && failures == 0 {
+                beside = Some(Beside::start(choice)?);
+            }
+            continue;
+        }
         eprintln!("\n== {name}");
         let begun = Instant::now();
         let result = if failures == 0 || choice.keep_going {
@@ -196,6 +252,11 @@ pub(crate) fn run(choice: &Choice) -> Result<()> {
             !in_ci || choice.may_miss.iter().any(|may| may == name),
         ));
         table.push((*name, begun.elapsed(), result));
+    }
+    if let Some(beside) = beside {
+        let result = beside.end();
+        failures += u32::from(result.is_err());
+        table.push(("those beside", start.elapsed(), result));
     }
     print_table(&table, start.elapsed());
     ensure!(
@@ -224,9 +285,9 @@ fn print_table(table: &[(&str, Duration, Result<Outcome>)], total: Duration) {
             Ok(Outcome::Missing(_)) => "NOT RUN",
             Err(_) => "FAILED",
         };
-        eprintln!("{name:<11} {:>7.1} s  {told}", time.as_secs_f64());
+        eprintln!("{name:<12} {:>7.1} s  {told}", time.as_secs_f64());
     }
-    eprintln!("{:<11} {:>7.1} s", "total", total.as_secs_f64());
+    eprintln!("{:<12} {:>7.1} s", "total", total.as_secs_f64());
     for (name, _, result) in table {
         if let Ok(Outcome::Missing(why)) = result {
             eprintln!("NOT RUN: {name}: {why}");

@@ -4,6 +4,7 @@
 mod links;
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 
 use anyhow::{Result, bail};
 
@@ -14,7 +15,7 @@ use crate::workspace::{cargo, entries, read, root, succeed};
 /// # Errors
 /// If rustdoc warns, a link leads nowhere or the demo fails.
 pub(crate) fn run() -> Result<()> {
-    api()?;
+    api(|arguments| Ok(cargo(arguments)))?;
     moving_picture()?;
     pages()
 }
@@ -26,12 +27,13 @@ fn moving_picture() -> Result<()> {
     succeed(&mut cargo(demo))
 }
 
-/// Runs `cargo doc` on the workspace with all features; warnings are errors.
+/// Runs this cargo's `doc` on the workspace with all features; warnings are errors.
 ///
 /// # Errors
-/// If rustdoc warns.
-pub(crate) fn api() -> Result<()> {
-    succeed(cargo("doc --workspace --all-features --no-deps").env("RUSTDOCFLAGS", "-Dwarnings"))
+/// If there is no such cargo, or rustdoc warns.
+pub(crate) fn api(cargo: impl Fn(&str) -> Result<Command>) -> Result<()> {
+    let mut doc = cargo("doc --workspace --all-features --no-deps --quiet")?;
+    succeed(doc.env("RUSTDOCFLAGS", "-Dwarnings"))
 }
 
 /// Checks that every relative link of every Markdown page names an existing file, and a heading of

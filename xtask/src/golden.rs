@@ -3,10 +3,11 @@
 
 use alloc::collections::BTreeSet;
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
+use serde_json::Value;
 
 use crate::workspace::{self, cargo, succeed};
 
@@ -19,7 +20,7 @@ const QUICK: u32 = 0;
 
 const PINNED: &[Pinned] = &[
     ("baselines", 5, &[]),
-    ("quantizers", 3, &[]),
+    ("quantizers", 1, &[]),
     ("mslst", 5, &[]),
     ("mslst-drawings", 2, &[]),
     ("mslst-sweeps", 1, &[]),
@@ -45,6 +46,10 @@ const TABLES: &[(&str, &[&str])] = &[(
     ],
 )];
 
+/// Tables that are compared with every change, where those above take too long for it: a robot that
+/// goes home has learned before.
+const QUICK_TABLES: &[(&str, &[&str])] = &[("arena", &["home, Pioneer", "conditions"])];
+
 /// Plays the runs of these experiments, or of all if none is named, and compares them with those in
 /// `tests/golden`. With `bless` it writes them there instead.
 ///
@@ -63,7 +68,7 @@ pub(crate) fn run(names: &[String], bless: bool) -> Result<()> {
     }
     succeed(&mut cargo("build --release --quiet --package tolman"))?;
     let is_asked_for = |name: &str| names.is_empty() || names.iter().any(|one| one == name);
-    run_those(is_asked_for, bless, "release")
+    run_those(is_asked_for, TABLES, bless, "release")
 }
 
 /// The slowest experiments, which only `cargo xtask golden` plays.
@@ -74,10 +79,15 @@ const SLOW: &[&str] = &["mslst", "mslst-sweeps", "diktiometry", "gngslam"];
 /// # Errors
 /// If an experiment fails or a value differs.
 pub(crate) fn run_quick() -> Result<()> {
-    run_those(|name| !SLOW.contains(&name), false, "debug")
+    run_those(|name| !SLOW.contains(&name), QUICK_TABLES, false, "debug")
 }
 
-fn run_those(is_asked_for: impl Fn(&str) -> bool, bless: bool, profile: &str) -> Result<()> {
+fn run_those(
+    is_asked_for: impl Fn(&str) -> bool,
+    tables: &[(&str, &[&str])],
+    bless: bool,
+    profile: &str,
+) -> Result<()> {
     let target = workspace::target_folder()?;
     let tolman = || Command::new(target.join(profile).join("tolman"));
     let mut moved = Vec::new();
@@ -102,8 +112,9 @@ fn run_those(is_asked_for: impl Fn(&str) -> bool, bless: bool, profile: &str) ->
                     .args(tables.iter().flat_map(|table| ["--table", table])),
             )
         };
-        let tables = TABLES.iter().find(|(of, _)| of == name);
-        play(*runs, tables.map_or(&[], |(_, tables)| tables))?;
+        let tables = tables.iter().find(|(of, _)| of == name);
+        let tables = tables.map_or(&[][..], |(_, tables)| *tables);
+        play(*runs, tables)?;
         let file = made.join("runs.jsonl");
         let mut all = fs::read_to_string(&file)?;
         for (runs, table) in *more {
@@ -127,7 +138,7 @@ fn run_those(is_asked_for: impl Fn(&str) -> bool, bless: bool, profile: &str) ->
         let mut compare = tolman();
         compare
             .args(["experiment", "--compare"])
-            .arg(pinned)
+            .arg(of_tables(&pinned, tables, &target)?)
             .arg(made);
         if succeed(&mut compare).is_err() {
             moved.push(*name);
@@ -139,6 +150,24 @@ fn run_those(is_asked_for: impl Fn(&str) -> bool, bless: bool, profile: &str) ->
         moved.join(", ")
     );
     Ok(())
+}
+
+/// Returns a folder with the committed runs of these tables alone, or of all if none is named.
+fn of_tables(pinned: &Path, tables: &[&str], target: &Path) -> Result<PathBuf> {
+    if tables.is_empty() {
+        return Ok(pinned.to_owned());
+    }
+    let mut kept = String::new();
+    for line in fs::read_to_string(pinned.join("runs.jsonl"))?.lines() {
+        let run: Value = serde_json::from_str(line)?;
+        if tables.iter().any(|table| run["table"] == **table) {
+            kept += &format!("{line}\n");
+        }
+    }
+    let folder = target.join("tmp").join("pinned");
+    fs::create_dir_all(&folder)?;
+    fs::write(folder.join("runs.jsonl"), kept)?;
+    Ok(folder)
 }
 
 /// Returns the folder of an experiment's committed runs.

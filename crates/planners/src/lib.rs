@@ -34,6 +34,7 @@
 #![doc = "```"]
 #![doc = include_str!("../examples/own_grid.rs")]
 #![doc = "```"]
+#![allow(clippy::needless_doctest_main, reason = "the example is a program")]
 #![no_std]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 

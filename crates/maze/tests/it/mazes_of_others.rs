@@ -20,8 +20,9 @@ fn files(folder: &str) -> Vec<PathBuf> {
     if !folders[0].is_dir() {
         // Written past the test harness, which would keep it to itself.
         let folder = folders[0].display();
+        let mut stderr = io::stderr();
         writeln!(
-            io::stderr(),
+            stderr,
             "SKIPPED: {folder} is not there; set TOLMAN_DATA to run this test"
         )
         .unwrap();

@@ -29,8 +29,8 @@ Examples:
   tolman experiment baselines --quick --jobs 1 --out two
   tolman experiment --compare one two
   tolman experiment baselines --quick --verify one
-  tolman experiment baselines --maze mazes/grid/braided-2.txt --maze mazes/j.maze --runs 100
-  tolman experiment diktiometry --table 3b --runs 2
+  tolman experiment baselines --maze mazes/grid/braided-2.txt --maze mazes/j.maze --runs 20
+  tolman experiment diktiometry --table 3b --runs 1
   tolman experiment baselines --replay '2 (J)' Avoid 137")]
 pub(super) struct Arguments {
     /// Experiment to run; without it, a tour of the main tables of all

@@ -42,7 +42,7 @@ maze, one per line.
 
 Examples:
   tolman mouse mazes/grid/braided-2.txt
-  tolman mouse mazes/grid --worst 3
+  tolman mouse mazes/grid --search certify-plain --worst 3
   tolman mouse mazes/grid/braided-1.txt --until worth
   tolman mouse mazes/grid/perfect-1.txt --replay mouse.html --trace mouse.jsonl
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/small-1.txt")]
