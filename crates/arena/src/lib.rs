@@ -57,4 +57,4 @@ mod simulated;
 
 pub use mind::{AnyBrain, AnyRollingBrain, Mind};
 pub use outing::{Depicted, Founding, HasSimulated, Outing, RobotFacts, Sent};
-pub use simulated::Simulated;
+pub use simulated::{Simulated, trace_of};

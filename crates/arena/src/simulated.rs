@@ -113,18 +113,32 @@ impl<M: Depicted> Simulated<M> {
             )
             .into());
         }
-        let model = self.model().again()?;
-        let mut lines = Vec::new();
         let world = Arc::clone(self.solo.simulation().world());
-        let robots = vec![(model, self.path[0])];
-        let mut recording =
-            Recording::start(world, self.seed, robots, &mut lines, Detail::Sensing)?;
-        for command in &self.commands {
-            recording.step(core::slice::from_ref(command))?;
-        }
-        recording.finish()?;
-        Ok(lines)
+        let model = self.model().again()?;
+        trace_of(world, model, self.path[0], self.seed, &self.commands)
     }
+}
+
+/// Returns the trace of a robot that begins at `start` and is given these commands, as JSON lines.
+/// They hold the world, the robot, and every step's command, true pose, bump and readings.
+///
+/// # Errors
+/// If the robot cannot begin there, or a line has no JSON form.
+pub fn trace_of<M: Depicted>(
+    world: Arc<World>,
+    robot: M,
+    start: Pose,
+    seed: u64,
+    commands: &[M::Command],
+) -> Result<Vec<u8>, BoxError> {
+    let mut lines = Vec::new();
+    let robots = vec![(robot, start)];
+    let mut recording = Recording::start(world, seed, robots, &mut lines, Detail::Sensing)?;
+    for command in commands {
+        recording.step(core::slice::from_ref(command))?;
+    }
+    recording.finish()?;
+    Ok(lines)
 }
 
 impl<M: Model> Robot for Simulated<M> {

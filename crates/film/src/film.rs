@@ -6,10 +6,11 @@ use core::mem;
 use tolman_arena::Outing;
 use tolman_geom::Point;
 use tolman_replay::{
-    Belief, Floor, MapEdge, MapGrowth, MapNode, Mark, Marks, Notes, Replay, RobotTrack, Scenery,
-    Shape, TimeSeries,
+    Belief, MapEdge, MapGrowth, MapNode, Mark, Marks, Notes, Replay, RobotTrack, Shape, TimeSeries,
 };
 use tolman_robot::{Landmark, Position};
+
+use crate::scenery::scenery_of;
 
 /// Distance within which a node that moved is not redrawn, m.
 const STILL: f64 = 0.05;
@@ -225,13 +226,7 @@ impl Film {
         let robot = outing.robot();
         let mut track = RobotTrack::new(robot.name, robot.body, path.to_vec());
         track.ring = robot.ring;
-        let world = &outing.course().world;
-        let mut scenery = Scenery::of_world(world);
-        if let Some(floor) = Floor::from(world, path[0].position) {
-            scenery.zones.extend(floor.solid());
-            let places = path.iter().map(|pose| pose.position);
-            track.series.push(floor.coverage(places));
-        }
+        let scenery = scenery_of(outing.course(), &mut track);
         track.maps = vec![MapGrowth {
             name: "map".to_owned(),
             nodes: self.nodes.into_values().collect(),

@@ -2,6 +2,7 @@
 //!
 //! A [`Film`] records any outing: its path, its notes, its belief and its map as it grew. A
 //! [`Glimpse`] is what it knows at one moment. A [`Recorder`] records one episode of a brain.
+//! [`scenery_of`] is for replays of anything else on a course.
 //!
 //! # A mouse that learns
 //!
@@ -15,6 +16,8 @@ extern crate alloc;
 
 mod film;
 mod recorder;
+mod scenery;
 
 pub use film::{Film, Glimpse};
 pub use recorder::Recorder;
+pub use scenery::scenery_of;

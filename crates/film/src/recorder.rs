@@ -5,7 +5,9 @@ use tolman_geom::Point;
 use tolman_robot::{Body, Guess, Robot};
 
 use tolman_arena::episode::{Episode, Step, Trial};
-use tolman_replay::{Belief, Floor, Mark, Marks, Notes, Replay, RobotTrack, Scenery};
+use tolman_replay::{Belief, Mark, Marks, Notes, Replay, RobotTrack};
+
+use crate::scenery::scenery_of;
 
 /// Records an episode and makes its replay.
 ///
@@ -131,13 +133,7 @@ impl<'a> Recorder<'a> {
         };
         let mut track = RobotTrack::new("robot", body, episode.path.clone());
         track.ring = Some(robot.ring);
-        let mut scenery = Scenery::of_world(&course.world);
-        let path = || episode.path.iter().map(|pose| pose.position);
-        let start: Point = self.trial.start.position;
-        if let Some(floor) = Floor::from(&course.world, start) {
-            scenery.zones.extend(floor.solid());
-            track.series.push(floor.coverage(path()));
-        }
+        let scenery = scenery_of(course, &mut track);
         track.notes = vec![self.action, self.ended, self.corridor];
         if !self.thoughts.notes.is_empty() {
             track.notes.push(self.thoughts);

@@ -3,22 +3,20 @@
 mod verdicts;
 
 use core::time::Duration;
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::PathBuf;
 use std::sync::OnceLock;
 use std::time::Instant;
 
-use anyhow::anyhow;
 use rayon::prelude::*;
 use serde::Serialize;
 use tolman_arena::contest::{
-    Claim, Condition, Contest, ContestError, ContestRecord, LearnRecord, LocateOutcome, Located,
+    Claim, Condition, Contest, ContestError, ContestRecord, LearnRecord, LocateOutcome,
 };
 use tolman_arena::registry::{Registry, RobotEntry, Schooling, SystemEntry, slug};
-use tolman_experiment::choices;
 use tolman_papers::arena::{ArenaWorld, DrawnWorld};
 
-use super::{App, Failure, OrBadInput};
+use super::{App, OrBadInput, Result, Unboxed, unknown};
 
 /// A system or baseline of the arena.
 type Contestant = &'static dyn SystemEntry;
@@ -117,11 +115,7 @@ struct Line<'a> {
     home_over_shortest: Vec<Option<f64>>,
 }
 
-pub(super) fn carry_out(
-    app: &App<'_>,
-    arguments: &Arguments,
-    out: &mut dyn Write,
-) -> Result<(), Failure> {
+pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -> Result {
     let robot = match arguments.robot.as_str() {
         "own" => None,
         name => Some(app.robot(name)?),
@@ -149,7 +143,7 @@ pub(super) fn carry_out(
         true => jobs.iter().map(play).collect(),
         false => jobs.par_iter().map(play).collect(),
     };
-    let held = held.map_err(|error| Failure::from(anyhow::Error::from(error)))?;
+    let held = held?;
     if arguments.json {
         for ((contestant, world), record) in jobs.iter().zip(&held) {
             let line = line(*contestant, robot, world, record);
@@ -157,35 +151,38 @@ pub(super) fn carry_out(
         }
         return Ok(());
     }
+    let of_each = held.chunks(worlds.len().max(1));
+    let rows: Vec<TableRow<'_>> = contestants.iter().copied().zip(of_each).collect();
     if arguments.cost {
-        costs(&contestants, &worlds, &held, out)?;
-        return Ok(());
+        return Ok(costs(&rows, out)?);
     }
-    table(&contestants, robot, &worlds, &held, out)
+    table(&rows, robot, out)?;
+    Ok(why_not(&rows, &worlds, out)?)
+}
+
+/// A contestant, and its records in all worlds.
+type TableRow<'a> = (Contestant, &'a [ContestRecord]);
+
+/// Returns a value as a cell of a table has it: a dash if there is none.
+fn or_dash(value: Option<impl ToString>) -> String {
+    value.map_or_else(|| "–".to_owned(), |value| value.to_string())
 }
 
 /// Writes the cost of learning for each system, as means over the worlds in which it drove.
-fn costs(
-    contestants: &[Contestant],
-    worlds: &[DrawnWorld],
-    held: &[ContestRecord],
-    out: &mut dyn Write,
-) -> std::io::Result<()> {
+fn costs(rows: &[TableRow<'_>], out: &mut dyn Write) -> io::Result<()> {
     writeln!(
         out,
         "{:18} {:>6} {:>12} {:>10} {:>13}",
         "system", "worlds", "time steps", "µs a step", "bytes a place"
     )?;
-    for (contestant, records) in contestants.iter().zip(held.chunks(worlds.len().max(1))) {
+    for (contestant, records) in rows {
         let learned: Vec<&LearnRecord> = records.iter().flat_map(|r| &r.learned).collect();
         let steps: u64 = learned.iter().map(|one| u64::from(one.steps)).sum();
         let thinking: Duration = learned.iter().filter_map(|one| one.thinking).sum();
         let bytes: usize = learned.iter().filter_map(|one| one.map_bytes).sum();
         let places: usize = learned.iter().map(|one| one.places).sum();
-        let ratio = |part: f64, whole: f64| match whole > 0.0 {
-            true => format!("{:.1}", part / whole),
-            false => "–".to_owned(),
-        };
+        let ratio =
+            |part: f64, whole: f64| or_dash((whole > 0.0).then(|| format!("{:.1}", part / whole)));
         writeln!(
             out,
             "{:18} {:>6} {:>12} {:>10} {:>13}",
@@ -199,7 +196,7 @@ fn costs(
     Ok(())
 }
 
-fn contestants(app: &App<'_>, name: &str) -> Result<Vec<Contestant>, Failure> {
+fn contestants(app: &App, name: &str) -> Result<Vec<Contestant>> {
     if name == "all" {
         return Ok(app.registry().contestants().collect());
     }
@@ -207,32 +204,30 @@ fn contestants(app: &App<'_>, name: &str) -> Result<Vec<Contestant>, Failure> {
     Ok(vec![app.system(name, competes)?])
 }
 
-fn condition(app: &App<'_>, name: &str) -> Result<Condition, Failure> {
+fn condition(app: &App, name: &str) -> Result<Condition> {
     let known = &app.registry().conditions;
     let mut conditions = known.iter();
     let named = conditions.find(|condition| slug(&condition.name()) == slug(name));
     named.copied().ok_or_else(|| {
         let names: Vec<String> = known.iter().map(|one| slug(&one.name())).collect();
-        Failure::BadInput(anyhow!(
-            "there is no condition {name} in the arena; {}",
-            choices(name, names.iter().map(String::as_str))
-        ))
+        let fault = format!("there is no condition {name} in the arena");
+        unknown(&fault, name, names.iter().map(String::as_str))
     })
 }
 
 impl Arguments {
-    fn kinds(&self, app: &App<'_>) -> Result<Vec<ArenaWorld>, Failure> {
+    fn kinds(&self, app: &App) -> Result<Vec<ArenaWorld>> {
         Ok(match (self.mazes.is_empty(), self.family.as_str()) {
             (false, _) => {
                 let files = ArenaWorld::of_files(&self.mazes);
-                files.map_err(anyhow::Error::from_boxed).or_bad_input()?
+                files.unboxed().or_bad_input()?
             }
             (true, "all") => ArenaWorld::families(),
             (true, name) => vec![ArenaWorld::Family(*app.family(name)?)],
         })
     }
 
-    fn worlds(&self, app: &App<'_>) -> Result<Vec<DrawnWorld>, Failure> {
+    fn worlds(&self, app: &App) -> Result<Vec<DrawnWorld>> {
         let kinds = self.kinds(app)?;
         let count = match self.mazes.is_empty() {
             true => self.worlds.unwrap_or(WORLDS),
@@ -242,7 +237,7 @@ impl Arguments {
         for kind in &kinds {
             for number in 0..count {
                 let drawn = kind.draw(self.seed, number);
-                let drawn = drawn.map_err(anyhow::Error::from_boxed).or_bad_input()?;
+                let drawn = drawn.unboxed().or_bad_input()?;
                 let starts = self.starts;
                 worlds.push(DrawnWorld { starts, ..drawn });
             }
@@ -298,13 +293,7 @@ fn line<'a>(
 }
 
 /// Writes the table with one row for each system.
-fn table(
-    contestants: &[Contestant],
-    robot: Option<RobotEntry>,
-    worlds: &[DrawnWorld],
-    held: &[ContestRecord],
-    out: &mut dyn Write,
-) -> Result<(), Failure> {
+fn table(rows: &[TableRow<'_>], robot: Option<RobotEntry>, out: &mut dyn Write) -> io::Result<()> {
     writeln!(
         out,
         "{:18} {:13} {:>6} {:>9} {:>5} {:>7} {:>6} {:>7} {:>13}",
@@ -318,63 +307,40 @@ fn table(
         "located",
         "came to goal"
     )?;
-    for (contestant, records) in contestants.iter().zip(held.chunks(worlds.len().max(1))) {
-        let count = |is: &dyn Fn(&ContestRecord) -> bool| records.iter().filter(|r| is(r)).count();
-        let judged = |record: &ContestRecord| record.learned.as_ref().map(|l| l.judgement);
+    for (contestant, records) in rows {
+        let judged: Vec<_> = records.iter().flat_map(|r| &r.learned).collect();
+        let judged = || judged.iter().map(|learned| learned.judgement);
+        let recall: f64 = judged().map(|judged| judged.link_recall).sum();
+        let found = || records.iter().flat_map(|r| &r.found);
+        let located = found().filter(|found| found.outcome == LocateOutcome::Right);
+        let homes = || records.iter().flat_map(|r| &r.homes);
+        let came = homes().filter(|home| home.over_shortest.is_some());
         let learns = contestant.learns();
-        let of = |is: &dyn Fn(&ContestRecord) -> bool| match learns {
-            true => count(is).to_string(),
-            false => "–".to_owned(),
-        };
-        let recall: f64 = records
-            .iter()
-            .filter_map(judged)
-            .map(|j| j.link_recall)
-            .sum();
-        let found: Vec<&Located> = records.iter().flat_map(|r| &r.found).collect();
-        let located = found
-            .iter()
-            .filter(|found| found.outcome == LocateOutcome::Right)
-            .count();
-        let homes: Vec<_> = records.iter().flat_map(|r| &r.homes).collect();
-        let came = homes
-            .iter()
-            .filter(|home| home.over_shortest.is_some())
-            .count();
-        let recall = match learns {
-            true => format!("{:.2}", recall / records.len() as f64),
-            false => "–".to_owned(),
-        };
         writeln!(
             out,
             "{:18} {:13} {:>6} {:>9} {:>5} {:>7} {:>6} {:>7} {:>13}",
             contestant.title(),
             carrier(*contestant, robot).title,
             records.len(),
-            count(&|r| r.abstained.is_some()),
-            of(&|r| judged(r).is_some_and(|j| j.is_right)),
-            of(&|r| judged(r).is_some_and(|j| j.is_right_of_visited)),
-            recall,
-            if learns || !found.is_empty() {
-                format!("{located}/{}", found.len())
-            } else {
-                "–".to_owned()
-            },
-            format!("{came}/{}", homes.len()),
+            records.iter().filter(|r| r.abstained.is_some()).count(),
+            or_dash(learns.then(|| judged().filter(|judged| judged.is_right).count())),
+            or_dash(learns.then(|| judged().filter(|judged| judged.is_right_of_visited).count())),
+            or_dash(learns.then(|| format!("{:.2}", recall / records.len() as f64))),
+            or_dash((learns || found().next().is_some()).then(|| format!(
+                "{}/{}",
+                located.count(),
+                found().count()
+            ))),
+            format!("{}/{}", came.count(), homes().count()),
         )?;
     }
-    Ok(why_not(contestants, worlds, held, out)?)
+    Ok(())
 }
 
 /// Writes why each system abstained, one line per system.
-fn why_not(
-    contestants: &[Contestant],
-    worlds: &[DrawnWorld],
-    held: &[ContestRecord],
-    out: &mut dyn Write,
-) -> std::io::Result<()> {
-    for (contestant, records) in contestants.iter().zip(held.chunks(worlds.len().max(1))) {
-        let mut abstained = worlds.iter().zip(records);
+fn why_not(rows: &[TableRow<'_>], worlds: &[DrawnWorld], out: &mut dyn Write) -> io::Result<()> {
+    for (contestant, records) in rows {
+        let mut abstained = worlds.iter().zip(*records);
         let first = abstained.find_map(|(world, r)| Some((world, r.abstained.as_ref()?)));
         if let Some((world, why)) = first {
             writeln!(

@@ -14,21 +14,18 @@ pub(super) fn set(program: &'static str) {
     let _ = PROGRAM.set(program);
 }
 
+fn program() -> &'static str {
+    PROGRAM.get().copied().unwrap_or("tolman")
+}
+
 /// Returns the command line, quoted so that it can be pasted into a shell.
 pub(super) fn command() -> String {
-    let program = PROGRAM.get().copied().unwrap_or("tolman");
-    behind(program)
+    behind(program(), given())
 }
 
 /// Returns the command line that continues the interrupted run saved in `file`.
 pub(super) fn going_on(file: &Path) -> String {
-    let program = PROGRAM.get().copied().unwrap_or("tolman");
-    let arguments = std::env::args_os().skip(1);
-    let given = arguments.map(|argument| argument.to_string_lossy().into_owned());
-    let file = file.to_string_lossy();
-    let words = with_from(given, &file);
-    let words: Vec<String> = words.iter().map(|word| quoted(word)).collect();
-    format!("{program} {}", words.join(" "))
+    behind(program(), with_from(given(), &file.to_string_lossy()))
 }
 
 /// Returns `given` with `--from` set to `file`, in place of an earlier `--from`.
@@ -50,13 +47,17 @@ fn with_from(given: impl Iterator<Item = String>, file: &str) -> Vec<String> {
 
 /// Returns the [`command`] of an experiment, which `cargo xtask` may have started.
 pub(super) fn experiment() -> String {
-    let program = PROGRAM.get().copied().unwrap_or("tolman");
-    behind(Program::current(program).command())
+    behind(Program::current(program()).command(), given())
 }
 
-fn behind(program: &str) -> String {
+/// Returns the arguments of this process.
+fn given() -> impl Iterator<Item = String> {
     let arguments = std::env::args_os().skip(1);
-    let quoted = arguments.map(|argument| quoted(&argument.to_string_lossy()));
+    arguments.map(|argument| argument.to_string_lossy().into_owned())
+}
+
+fn behind(program: &str, words: impl IntoIterator<Item = String>) -> String {
+    let quoted = words.into_iter().map(|word| quoted(&word));
     let words: Vec<String> = [program.to_owned()].into_iter().chain(quoted).collect();
     words.join(" ")
 }

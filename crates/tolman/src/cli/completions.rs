@@ -5,7 +5,7 @@ use std::io::Write;
 use clap::CommandFactory;
 use clap_complete::Shell;
 
-use super::Failure;
+use super::Result;
 
 /// Writes a completion script for a shell
 #[derive(clap::Args)]
@@ -17,7 +17,7 @@ pub(super) struct Arguments {
     shell: Shell,
 }
 
-pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     // The generator panics if it cannot write, so it writes to memory.
     let mut script = Vec::new();
     let mut command = super::Arguments::command();

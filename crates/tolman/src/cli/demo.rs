@@ -10,9 +10,9 @@ use tolman_film::Film;
 use tolman_maze::{Maze, MazeFile};
 use tolman_replay::{Chapter, Mark, Marks, Replay, moving_picture};
 
+use super::live::{Live, Scene};
 use super::replay_file::{self, Overwrite};
-use super::watched::Watched;
-use super::{App, Failure, OrBadInput, file, maze};
+use super::{App, Failure, OrBadInput, Result, file, maze};
 
 /// Lets a robot explore a maze, moves it elsewhere, lets it localize and drive to the goal; writes
 /// a replay for the browser
@@ -61,11 +61,7 @@ const MAZE: &str = include_str!("../../mazes/demo.maze");
 /// Maze for systems that map a large maze slowly or do not localize in it.
 const SMALL: &str = include_str!("../../mazes/star.maze");
 
-pub(super) fn carry_out(
-    app: &App<'_>,
-    arguments: &Arguments,
-    out: &mut dyn Write,
-) -> Result<(), Failure> {
+pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -> Result {
     let overwrite = Overwrite::if_forced(arguments.force);
     let path = match &arguments.out {
         Some(path) => path.clone(),
@@ -101,7 +97,7 @@ pub(super) fn carry_out(
     }
     replay_file::write(&path, replay, overwrite)?;
     tell(&contest, &record, out)?;
-    writeln!(out, "replay: {}", replay_file::address(&path))?;
+    replay_file::tell(&path, out)?;
     match failure(&record) {
         None => Ok(()),
         Some(why) => Err(Failure::Failed(anyhow!("{why}; try another --seed"))),
@@ -139,8 +135,8 @@ fn named(file: MazeFile) -> (String, Maze) {
 }
 
 /// Plays the demo, and returns its record and its replay.
-fn shown(contest: &Contest<'_>, is_live: bool) -> Result<(ShowRecord, Replay), Failure> {
-    let mut live: Option<Result<Watched, Failure>> = None;
+fn shown(contest: &Contest<'_>, is_live: bool) -> Result<(ShowRecord, Replay)> {
+    let mut live = None;
     let mut film: Option<Film> = None;
     let mut replay = None;
     let record = contest.show(&Schooling::default(), |outing, moment| {
@@ -148,13 +144,13 @@ fn shown(contest: &Contest<'_>, is_live: bool) -> Result<(ShowRecord, Replay), F
         match moment {
             Moment::Begun => {
                 let name = contest.contestant.title();
-                let watched = is_live.then(|| Watched::open(outing, name, contest.seed, None));
-                live = watched;
+                let scene = || Scene::of_outing(outing, name, contest.seed, None);
+                live = Some(Live::open(is_live, scene));
             }
             Moment::Acted => {
                 film.see(outing);
                 if let Some(Ok(live)) = &mut live {
-                    live.see(outing, film);
+                    live.follow(outing, film);
                 }
             }
             Moment::PutDown => film.lifted(outing),
@@ -189,7 +185,7 @@ fn shown(contest: &Contest<'_>, is_live: bool) -> Result<(ShowRecord, Replay), F
 }
 
 /// Writes the events of the demo, in lines of at most 80 columns.
-fn tell(contest: &Contest<'_>, record: &ShowRecord, out: &mut dyn Write) -> Result<(), Failure> {
+fn tell(contest: &Contest<'_>, record: &ShowRecord, out: &mut dyn Write) -> Result {
     let ShowRecord {
         learned,
         explored,
@@ -246,7 +242,7 @@ fn failure(record: &ShowRecord) -> Option<String> {
 }
 
 /// Returns a file name that is still free.
-fn free_name() -> Result<PathBuf, Failure> {
+fn free_name() -> Result<PathBuf> {
     let names = (1..1000).map(|number| match number {
         1 => "tolman-demo.html".to_owned(),
         _ => format!("tolman-demo-{number}.html"),

@@ -3,17 +3,15 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use anyhow::anyhow;
+use anyhow::{Context, anyhow};
 use serde_json::json;
-use tolman_arena::run::TaskEnd;
-use tolman_robot::{Goal, Landmark, Task};
 
 use super::looks::Looks;
 use super::map::map_text;
-use super::send::{Pursued, check_origin, send, tell_replay};
+use super::send::{ARRIVE, Pursued, check_origin, send};
 use super::sent_out::SentOut;
 use super::unfinished::{GoingOn, checksum};
-use super::{App, Failure, OrBadInput, of_registry};
+use super::{App, Failure, OrBadInput, Result, Unboxed};
 use tolman_arena::registry::{MapText, Schooling};
 
 /// Sends a robot to the goal of a maze or a world by a learned map; exits 1 if it does not arrive
@@ -49,13 +47,8 @@ pub(super) struct Arguments {
     looks: Looks,
 }
 
-pub(super) fn carry_out(
-    app: &App<'_>,
-    arguments: &Arguments,
-    out: &mut dyn Write,
-) -> Result<(), Failure> {
-    let maps: Result<Vec<MapText>, Failure> =
-        arguments.map.iter().map(|path| map_text(path)).collect();
+pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -> Result {
+    let maps: Result<Vec<MapText>> = arguments.map.iter().map(|path| map_text(path)).collect();
     let maps = maps?;
     let system = app.system_of(&maps[0])?;
     for map in &maps {
@@ -88,58 +81,58 @@ pub(super) fn carry_out(
         }
     };
     let outing = system.driver(&maps, &setup);
-    let mut outing = outing
-        .map_err(|error| of_registry(error).context(context()))
-        .or_bad_input()?;
+    let mut outing = outing.unboxed().with_context(context).or_bad_input()?;
     if !arguments.anyway {
         let mut checked = maps.iter().map(|map| check_origin(map, &*outing));
         if !checked.any(|checked| checked.is_ok()) {
             check_origin(&maps[0], &*outing)?;
         }
     }
-    let task = Task::Reach(Goal::Landmark(Landmark::Goal));
     let texts: String = maps.iter().map(|map| &*map.text).collect();
     let call = arguments.sent_out.call("drive", system.name(), &*outing);
     let call = call
         .with("the checksum of the maps", Some(checksum(&texts)))
         .with("--anyway", arguments.anyway.then_some("given"));
     let keeper = arguments.going_on.keeper(call)?;
-    let Pursued { ended, told } = send(
+    let Pursued {
+        ended,
+        told,
+        has_arrived,
+    } = send(
         &mut *outing,
-        task,
+        ARRIVE,
         &setup,
         system.name(),
         &arguments.looks,
         keeper,
         |_, _| {},
     )?;
-    let arrived = ended.end == TaskEnd::Done && outing.landmark() == Some(Landmark::Goal);
-    if arguments.looks.json {
-        let json = json!({
+    let json = || {
+        json!({
             "system": system.name(),
             "maze": setup.world,
             "seed": setup.seed,
             "map": maps[outing.chosen()].name,
-            "reached": arrived,
+            "reached": has_arrived,
             "steps": ended.steps,
             "actions": ended.actions,
             "bumps": outing.bumped().len(),
-        });
-        writeln!(out, "{json:#}")?;
-    } else {
+        })
+    };
+    arguments.looks.tell(out, json, |out| {
         if let (true, Some(map)) = (maps.len() > 1, maps.get(outing.chosen())) {
             writeln!(out, "{} is taken for the map of this maze", map.name)?;
         }
-        if arrived {
-            writeln!(out, "{told}")?;
+        match has_arrived {
+            true => writeln!(out, "{told}"),
+            false => Ok(()),
         }
-        tell_replay(&arguments.looks, out)?;
+    })?;
+    match has_arrived {
+        true => Ok(()),
+        false => Err(Failure::Failed(anyhow!(
+            "{told}: the robot is not at the goal of {}; give it more --steps, another --seed, or learn the map again",
+            setup.world
+        ))),
     }
-    if arrived {
-        return Ok(());
-    }
-    Err(Failure::Failed(anyhow!(
-        "{told}: the robot is not at the goal of {}; give it more --steps, another --seed, or learn the map again",
-        setup.world
-    )))
 }

@@ -9,12 +9,12 @@ use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
 use tolman_experiment::{
-    Error, ExperimentOutcome, Measured, Metric, Options, Program, Table, Terminal, VerdictTally,
-    compare, execute, open, tables_as_text, verify, write_replay,
+    Error, Experiment, ExperimentOutcome, Measured, Metric, Options, Program, Table, Terminal,
+    VerdictTally, compare, execute, open, tables_as_text, verify, write_replay,
 };
 
 use super::kind::Kind;
-use super::{App, Failure, called, ink, interrupt, maze};
+use super::{App, Failure, Result, called, ink, interrupt, maze};
 
 /// Runs an experiment, shows its tables beside the paper's, and writes a folder of results; without
 /// NAME, gives a tour in a minute
@@ -100,11 +100,7 @@ pub(super) struct Choice {
     quick: bool,
 }
 
-pub(super) fn carry_out(
-    app: &App<'_>,
-    arguments: &Arguments,
-    out: &mut dyn Write,
-) -> Result<(), Failure> {
+pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -> Result {
     if arguments.list {
         for entry in &app.catalogue.experiments {
             writeln!(out, "{:<14} {}", entry.name, entry.title)?;
@@ -134,13 +130,13 @@ pub(super) fn carry_out(
     let chosen = arguments.chosen(app);
     let all = chosen.len();
     for (number, (name, options)) in (1..).zip(chosen) {
-        let experiment = open(&app.catalogue.experiments, name, &options).map_err(classify)?;
+        let experiment = app.experiment(name, &options)?;
         if arguments.all && !arguments.json {
             let head = heading(number, all, experiment.entry.title);
             writeln!(out, "{head}\n")?;
         }
         let progress = Terminal::new(Arc::clone(&stop));
-        let outcome = execute(&experiment, &options, app.build, &progress).map_err(classify)?;
+        let outcome = execute(&experiment, &options, &app.build, &progress).map_err(classify)?;
         if arguments.json {
             let summary = outcome.summary.to_json().map_err(classify)?;
             out.write_all(summary.as_bytes())?;
@@ -167,24 +163,19 @@ pub(super) fn carry_out(
 }
 
 /// Writes the tables, and the path of the report.
-pub(super) fn show(outcome: &ExperimentOutcome, out: &mut dyn Write) -> Result<(), Failure> {
+pub(super) fn show(outcome: &ExperimentOutcome, out: &mut dyn Write) -> Result {
     let tables = tables_as_text(&outcome.analysis, ink());
     let report = outcome.folder.join("report.html");
     Ok(writeln!(out, "{tables}\nThe report: {}", report.display())?)
 }
 
 /// Plays a sample of a folder's runs again and compares every value.
-fn verified(
-    app: &App<'_>,
-    arguments: &Arguments,
-    folder: &Path,
-    out: &mut dyn Write,
-) -> Result<(), Failure> {
+fn verified(app: &App, arguments: &Arguments, folder: &Path, out: &mut dyn Write) -> Result {
     let stop = interrupt::flag()?;
     for (name, options) in arguments.chosen(app) {
-        let experiment = open(&app.catalogue.experiments, name, &options).map_err(classify)?;
+        let experiment = app.experiment(name, &options)?;
         let progress = Terminal::new(Arc::clone(&stop));
-        let found = verify(&experiment, &options, app.build, folder, &progress);
+        let found = verify(&experiment, &options, &app.build, folder, &progress);
         let found = found.map_err(classify)?;
         if !found.faults.is_empty() {
             return Err(Failure::Failed(anyhow!("{found}")));
@@ -201,20 +192,20 @@ fn verified(
 
 /// Plays one run again and writes its replay.
 fn replay(
-    app: &App<'_>,
+    app: &App,
     arguments: &Arguments,
     table: &str,
     row: &str,
     run: &str,
     out: &mut dyn Write,
-) -> Result<(), Failure> {
+) -> Result {
     let run = run.parse().map_err(|_| {
         Failure::BadInput(anyhow!(
             "{run:?} is not the index of a run; give a whole number from 0 on"
         ))
     })?;
     for (name, options) in arguments.chosen(app) {
-        let experiment = open(&app.catalogue.experiments, name, &options).map_err(classify)?;
+        let experiment = app.experiment(name, &options)?;
         let file = write_replay(&experiment, &options, table, row, run).map_err(classify)?;
         writeln!(out, "The replay: {}", file.display())?;
     }
@@ -222,7 +213,7 @@ fn replay(
 }
 
 /// Refuses files of a known kind that are not mazes. The experiment reports what is unknown.
-fn refuse_other_files(mazes: &[PathBuf]) -> Result<(), Failure> {
+fn refuse_other_files(mazes: &[PathBuf]) -> Result {
     for path in mazes.iter().filter(|path| path.is_file()) {
         let text = maze::text(path)?;
         if Kind::Maze.is_not_of(&text) {
@@ -244,7 +235,7 @@ fn heading(number: usize, all: usize, title: &str) -> String {
 
 impl Arguments {
     /// Returns the chosen experiments, each with its options.
-    fn chosen<'a>(&'a self, app: &App<'a>) -> Vec<(&'a str, Options)> {
+    fn chosen<'a>(&'a self, app: &'a App) -> Vec<(&'a str, Options)> {
         let options = self.choice.options(app);
         if let Some(name) = &self.name {
             return vec![(name, options)];
@@ -259,13 +250,13 @@ impl Arguments {
     }
 
     /// Returns the one experiment that the command names, with its options.
-    pub(super) fn named(&self, app: &App<'_>) -> Option<(&str, Options)> {
+    pub(super) fn named(&self, app: &App) -> Option<(&str, Options)> {
         Some((self.name.as_deref()?, self.choice.options(app)))
     }
 }
 
 impl Choice {
-    pub(super) fn options(&self, app: &App<'_>) -> Options {
+    pub(super) fn options(&self, app: &App) -> Options {
         Options {
             seed: self.seed,
             runs: self.runs,
@@ -278,6 +269,16 @@ impl Choice {
             quick: self.quick,
             program: Program::current(app.catalogue.program),
         }
+    }
+}
+
+impl App {
+    /// Returns the experiment called `name`, prepared with `options`.
+    ///
+    /// # Errors
+    /// If there is none, or it cannot be prepared.
+    pub(super) fn experiment(&self, name: &str, options: &Options) -> Result<Experiment> {
+        open(&self.catalogue.experiments, name, options).map_err(classify)
     }
 }
 

@@ -7,12 +7,16 @@
 use std::io::{self, Write};
 use std::process::ExitCode;
 
+use anyhow::anyhow;
 use clap::builder::styling::{AnsiColor, Style};
 use tolman_arena::BoxError;
 use tolman_arena::registry::UnknownName;
 use tolman_experiment::choices;
 
 use super::interrupt::INTERRUPTED;
+
+/// Result of a verb, or of a part of its work.
+pub(super) type Result<T = (), E = Failure> = core::result::Result<T, E>;
 
 /// Reason why a verb failed.
 #[derive(Debug)]
@@ -62,14 +66,30 @@ impl Failure {
     }
 }
 
-/// Returns an error of the registry. An unknown name says which known one is nearest.
-pub(super) fn of_registry(error: BoxError) -> anyhow::Error {
-    match error.downcast::<UnknownName>() {
-        Ok(unknown) => {
-            let known = unknown.known.iter().map(String::as_str);
-            anyhow::anyhow!("{}; {}", unknown.told, choices(&unknown.name, known))
-        }
-        Err(error) => anyhow::Error::from_boxed(error),
+/// Returns the failure for a name that is not `known`; it says which known one is nearest.
+pub(super) fn unknown<'a>(
+    fault: &str,
+    name: &str,
+    known: impl IntoIterator<Item = &'a str>,
+) -> Failure {
+    Failure::BadInput(anyhow!("{fault}; {}", choices(name, known)))
+}
+
+/// Errors of the arena, which have no type.
+pub(super) trait Unboxed<T> {
+    /// Returns the value, or the error. An unknown name says which known one is nearest.
+    fn unboxed(self) -> Result<T, anyhow::Error>;
+}
+
+impl<T> Unboxed<T> for Result<T, BoxError> {
+    fn unboxed(self) -> Result<T, anyhow::Error> {
+        self.map_err(|error| match error.downcast::<UnknownName>() {
+            Ok(unknown) => {
+                let known = unknown.known.iter().map(String::as_str);
+                anyhow!("{}; {}", unknown.told, choices(&unknown.name, known))
+            }
+            Err(error) => anyhow::Error::from_boxed(error),
+        })
     }
 }
 
@@ -110,11 +130,11 @@ impl<E: Into<anyhow::Error>> From<E> for Failure {
 /// Marks an error as bad input.
 pub(super) trait OrBadInput<T> {
     /// Returns the value, or a failure with exit code 2 instead of 1.
-    fn or_bad_input(self) -> Result<T, Failure>;
+    fn or_bad_input(self) -> Result<T>;
 }
 
 impl<T, E: Into<anyhow::Error>> OrBadInput<T> for Result<T, E> {
-    fn or_bad_input(self) -> Result<T, Failure> {
+    fn or_bad_input(self) -> Result<T> {
         self.map_err(|error| Failure::BadInput(error.into()))
     }
 }

@@ -11,7 +11,7 @@ use tolman_sim::{Area, Occupancy, World, Zone};
 
 use super::kind::Kind;
 use super::unfinished::Call;
-use super::{Failure, OrBadInput, maze};
+use super::{Failure, OrBadInput, Result, maze};
 
 /// The maze or world that robots are sent into.
 #[derive(clap::Args)]
@@ -61,7 +61,7 @@ impl Ground {
     ///
     /// # Errors
     /// Bad input if neither is given, or it cannot be read.
-    pub(super) fn read(&self) -> Result<(String, Terrain), Failure> {
+    pub(super) fn read(&self) -> Result<(String, Terrain)> {
         if let Some(path) = &self.maze {
             self.refuse_in_maze()?;
             let file = maze::read(path)?;
@@ -91,7 +91,7 @@ impl Ground {
     }
 
     /// Refuses flags for which a maze file has marks of its own.
-    fn refuse_in_maze(&self) -> Result<(), Failure> {
+    fn refuse_in_maze(&self) -> Result {
         let error = match self {
             Self { goal: Some(_), .. } => {
                 "--goal is only for --world: in a maze file, mark the goal with G"
@@ -120,7 +120,7 @@ impl Ground {
 }
 
 /// Reads a world of either kind.
-fn world(path: &Path) -> Result<World, Failure> {
+fn world(path: &Path) -> Result<World> {
     if is_yaml(path) {
         let read = RosMap::read(path).map_err(Error::from);
         let world = read.and_then(|map| Ok(World::from_occupancy(&occupancy(map))?));

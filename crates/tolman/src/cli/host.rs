@@ -2,25 +2,23 @@
 
 use core::time::Duration;
 use std::io::Write;
+use std::path::PathBuf;
 
 use anyhow::{Context, Error, anyhow};
 use clap::ArgGroup;
 use serde_json::json;
-use tolman_arena::course::Terrain;
 use tolman_arena::cpm::epuck;
 use tolman_arena::foreign::{Budget, ForeignBrain, Hello, Launch, Log};
-use tolman_arena::run::TaskEnd;
 use tolman_arena::{Depicted, Outing, RobotFacts, Sent};
-use tolman_robot::{Goal, Landmark, Task};
 use tolman_sim::robots::Epuck;
 
 use super::ground::Ground;
 use super::looks::Looks;
-use super::send::{Pursued, send, tell_replay};
-use super::unfinished::Keeper;
-use super::{App, Failure, OrBadInput, interrupt, keep, of_registry};
-use tolman_arena::contest::Condition;
-use tolman_arena::registry::{RobotEntry, RobotKind, Schooling, Settings, Setup, Start, slug};
+use super::send::{ARRIVE, Pursued, metres, send};
+use super::sent_out::setup_of;
+use super::unfinished::{Call, Keeper, Saving};
+use super::{App, Failure, OrBadInput, Result, Unboxed, interrupt, keep};
+use tolman_arena::registry::{RobotEntry, RobotKind, Schooling, Setup, Start, slug};
 
 /// Lets your program, in any language, drive a simulated robot to the goal, and scores it; exits 1
 /// if the robot does not arrive
@@ -90,21 +88,21 @@ fn ground_or_template() -> ArgGroup {
     either.required(true)
 }
 
-pub(super) fn carry_out(
-    app: &App<'_>,
-    arguments: &Arguments,
-    out: &mut dyn Write,
-) -> Result<(), Failure> {
+pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -> Result {
     if arguments.template {
         return Ok(out.write_all(TEMPLATE.as_bytes())?);
     }
-    let (world, terrain) = arguments.ground.read()?;
+    let world = arguments.ground.read()?;
     let robot = match &arguments.robot {
         Some(name) => app.robot(name)?,
         None => RobotEntry::LASER_PIONEER,
     };
     let schooling = Schooling::default();
-    let setup = arguments.setup(&world, &terrain, robot, &schooling);
+    let setup = Setup {
+        start: arguments.start,
+        steps: Some(arguments.steps),
+        ..setup_of(&world, robot, &schooling, arguments.seed)
+    };
     let stop = interrupt::flag()?;
     let keeper = keep::keeper();
     let launch = Launch {
@@ -118,45 +116,30 @@ pub(super) fn carry_out(
     };
     let outing = arguments.outing(&setup, &launch);
     let mut outing = outing
-        .with_context(|| format!("cannot host a program in {world}"))
+        .with_context(|| format!("cannot host a program in {}", setup.world))
         .or_bad_input()?;
-    let task = Task::Reach(Goal::Landmark(Landmark::Goal));
     let word = arguments.program.join(" ");
-    let keeper = Keeper::of_nothing("host");
+    let keeper = Keeper::new(PathBuf::new(), Call::new("host"), None)?.saving(Saving::Never);
     let looks = &arguments.looks;
-    let pursued = send(&mut *outing, task, &setup, &word, looks, keeper, |_, _| {})?;
-    arguments.tell(&*outing, &world, &pursued, out)
+    let pursued = send(
+        &mut *outing,
+        ARRIVE,
+        &setup,
+        &word,
+        looks,
+        keeper,
+        |_, _| {},
+    )?;
+    arguments.tell(&*outing, setup.world, &pursued, out)
 }
 
 impl Arguments {
-    fn setup<'a>(
-        &'a self,
-        world: &'a str,
-        terrain: &'a Terrain,
-        robot: RobotEntry,
-        schooling: &'a Schooling,
-    ) -> Setup<'a> {
-        Setup {
-            world,
-            terrain,
-            seed: self.seed,
-            start: self.start,
-            steps: Some(self.steps),
-            robot,
-            from: None,
-            settings: Settings::default(),
-            condition: Condition::AsMade,
-            schooling,
-        }
-    }
-
     /// Starts the program and puts its robot on the course.
     fn outing(&self, setup: &Setup<'_>, launch: &Launch<'_>) -> Result<Box<dyn Outing>, Error> {
         let robot = setup.robot;
-        let model = || robot.laser_model(robot.laser_config());
         match robot.kind() {
             RobotKind::Laser => {
-                let model = model().map_err(of_registry)?;
+                let model = robot.laser_model(robot.laser_config()).unboxed()?;
                 self.outing_of(model, setup, launch)
             }
             RobotKind::Epuck => self.outing_of(Epuck::new(epuck())?, setup, launch),
@@ -174,9 +157,7 @@ impl Arguments {
         launch: &Launch<'_>,
     ) -> Result<Box<dyn Outing>, Error> {
         let course = setup.terrain.course(setup.world, model.body())?;
-        let start = setup
-            .start_anywhere(&course, model.body())
-            .map_err(of_registry)?;
+        let start = setup.start_anywhere(&course, model.body()).unboxed()?;
         let robot = course.robot_at(start, model, setup.seed)?;
         let facts = RobotFacts::of(&robot);
         let hello = Hello {
@@ -202,49 +183,45 @@ impl Arguments {
         &self,
         outing: &dyn Outing,
         world: &str,
-        Pursued { ended, told }: &Pursued,
+        pursued: &Pursued,
         out: &mut dyn Write,
-    ) -> Result<(), Failure> {
-        let reached = ended.end == TaskEnd::Done && outing.landmark() == Some(Landmark::Goal);
-        let driven = driven(outing);
+    ) -> Result {
+        let Pursued {
+            ended,
+            told,
+            has_arrived,
+        } = pursued;
+        let driven = metres(outing.path());
         let shortest = outing
             .course()
             .shortest_metres_from(outing.path()[0].position);
-        if self.looks.json {
-            let json = json!({
+        let json = || {
+            json!({
                 "program": self.program,
                 "maze": world,
                 "robot": outing.robot().name,
                 "seed": self.seed,
-                "reached": reached,
+                "reached": has_arrived,
                 "gave_up": ended.end.why(),
                 "steps": ended.steps,
                 "bumps": outing.bumped().len(),
                 "driven": driven,
                 "shortest": shortest,
-            });
-            writeln!(out, "{json:#}")?;
-        } else {
-            if reached {
-                let way = shortest.map(|shortest| format!(" (the shortest way: {shortest:.1} m)"));
-                let way = way.unwrap_or_default();
-                writeln!(out, "{told}; it drove {driven:.1} m{way}")?;
+            })
+        };
+        self.looks.tell(out, json, |out| {
+            if !has_arrived {
+                return Ok(());
             }
-            tell_replay(&self.looks, out)?;
-        }
-        match reached {
+            let way = shortest.map(|shortest| format!(" (the shortest way: {shortest:.1} m)"));
+            let way = way.unwrap_or_default();
+            writeln!(out, "{told}; it drove {driven:.1} m{way}")
+        })?;
+        match has_arrived {
             true => Ok(()),
             false => Err(Failure::Failed(anyhow!(
                 "{told}: the robot is not at the goal of {world}; --log shows what the program says"
             ))),
         }
     }
-}
-
-/// Returns the distance that the robot drove, m.
-fn driven(outing: &dyn Outing) -> f64 {
-    let pairs = outing.path().windows(2);
-    pairs
-        .map(|pair| (pair[1].position - pair[0].position).norm())
-        .sum()
 }

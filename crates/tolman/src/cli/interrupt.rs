@@ -6,7 +6,7 @@ use core::sync::atomic::AtomicBool;
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag::{register, register_conditional_shutdown};
 
-use super::Failure;
+use super::Result;
 
 /// Exit code that shells expect of a program ended by Ctrl-C.
 pub(super) const INTERRUPTED: u8 = 130;
@@ -14,7 +14,7 @@ pub(super) const INTERRUPTED: u8 = 130;
 /// Returns a flag that the first Ctrl-C, or the first `kill`, raises.
 ///
 /// The second one ends the program. So does the first if the flag is already raised.
-pub(super) fn flag() -> Result<Arc<AtomicBool>, Failure> {
+pub(super) fn flag() -> Result<Arc<AtomicBool>> {
     let asked = Arc::new(AtomicBool::new(false));
     for (signal, code) in [(SIGINT, INTERRUPTED), (SIGTERM, 143)] {
         // The order matters: a signal must not see the flag that it raises itself.

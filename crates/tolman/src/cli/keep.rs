@@ -3,7 +3,7 @@
 
 use std::ffi::OsString;
 
-use super::Failure;
+use super::Result;
 
 /// Runs a program for another process, and ends it when that process ends
 #[derive(clap::Args)]
@@ -25,15 +25,15 @@ pub(super) fn keeper() -> Vec<OsString> {
 }
 
 #[cfg(target_os = "linux")]
-pub(super) fn carry_out(arguments: &Arguments) -> Result<(), Failure> {
+pub(super) fn carry_out(arguments: &Arguments) -> Result {
     let code = tolman_arena::foreign::keep(arguments.parent, &arguments.words)?;
     std::process::exit(code.into())
 }
 
 #[cfg(not(target_os = "linux"))]
-pub(super) fn carry_out(arguments: &Arguments) -> Result<(), Failure> {
+pub(super) fn carry_out(arguments: &Arguments) -> Result {
     let Arguments { parent, words } = arguments;
-    Err(Failure::Failed(anyhow::anyhow!(
+    Err(super::Failure::Failed(anyhow::anyhow!(
         "`tolman keep` needs Linux: cannot run {words:?} for process {parent}"
     )))
 }

@@ -3,19 +3,19 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::anyhow;
+use anyhow::{Context, anyhow};
 use serde_json::json;
 use tolman_arena::Outing;
 use tolman_arena::contest::{Claim, Evidence, TrueVisits};
-use tolman_robot::{Goal, Landmark, Task};
+use tolman_robot::Task;
 
 use super::looks::Looks;
-use super::map::{MapOr, map_text_or, of_text};
-use super::send::{Pursued, check_origin, send, tell_replay};
+use super::map::{of_text, text};
+use super::send::{ARRIVE, Pursued, check_origin, send};
 use super::sent_out::SentOut;
 use super::unfinished::{Former, FormerMap, Keeper};
 use super::words::words;
-use super::{App, Failure, OrBadInput, file, of_registry};
+use super::{App, Failure, OrBadInput, Result, Unboxed, file};
 use tolman_arena::registry::{LearnedMap, MapText, Schooling, SystemEntry};
 
 /// Lets a system learn a map of a maze or a world, and writes the map to a file
@@ -62,6 +62,7 @@ pub(super) struct Arguments {
 }
 
 /// Map or run that learning continues from.
+#[derive(Default)]
 struct From {
     map: Option<MapText>,
     former: Option<Former>,
@@ -69,22 +70,17 @@ struct From {
 
 impl From {
     /// Reads a map, or an interrupted run with the map that it continued.
-    fn read(path: &Path) -> Result<Self, Failure> {
-        let map = map_text_or(path, |text| Former::of_text(path, text))?;
-        match map {
-            MapOr::Map(map) => Ok(Self {
-                map: Some(*map),
-                former: None,
-            }),
-            MapOr::Other(former) => {
-                let map = former.run().map();
-                let map = map.map(|FormerMap { name, text }| of_text(name, text));
-                Ok(Self {
-                    map: map.transpose()?,
-                    former: Some(former),
-                })
-            }
-        }
+    fn read(path: &Path) -> Result<Self> {
+        let text = text(path)?;
+        let former = Former::of_text(path, &text)?;
+        let map = match &former {
+            Some(former) => former.map().map(|map| of_text(&map.name, &map.text)),
+            None => Some(of_text(path, &text)),
+        };
+        Ok(Self {
+            map: map.transpose()?,
+            former,
+        })
     }
 }
 
@@ -96,7 +92,7 @@ impl Arguments {
         system: &str,
         from: Option<&MapText>,
         former: Option<Former>,
-    ) -> Result<Keeper, Failure> {
+    ) -> Result<Keeper> {
         let until = UNTIL.iter().find(|(_, _, task)| *task == self.until);
         let call = self.sent_out.call("learn", system, outing);
         let call = call
@@ -118,21 +114,13 @@ impl Arguments {
 /// Values of `--until`: when a system has learned enough.
 const UNTIL: [(&str, &str, Task); 2] = [
     ("explored", "It has nothing left to learn", Task::Explore),
-    (
-        "goal",
-        "The goal is found",
-        Task::Reach(Goal::Landmark(Landmark::Goal)),
-    ),
+    ("goal", "The goal is found", ARRIVE),
 ];
 
-pub(super) fn carry_out(
-    app: &App<'_>,
-    arguments: &Arguments,
-    out: &mut dyn Write,
-) -> Result<(), Failure> {
+pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -> Result {
     let system = app.system(&arguments.system, |system| system.learns())?;
     let from = arguments.from.as_deref().map(From::read).transpose()?;
-    let (from, former) = from.map_or((None, None), |From { map, former }| (map, former));
+    let From { map: from, former } = from.unwrap_or_default();
     let terrain = arguments.sent_out.terrain()?;
     let schooling = Schooling::default();
     // A map is continued by the robot that learned it.
@@ -145,9 +133,7 @@ pub(super) fn carry_out(
     setup.from = from.as_ref();
     let context = || format!("{} cannot learn {}", system.name(), setup.world);
     let outing = system.learner(&setup);
-    let mut outing = outing
-        .map_err(|error| of_registry(error).context(context()))
-        .or_bad_input()?;
+    let mut outing = outing.unboxed().with_context(context).or_bad_input()?;
     if let (Some(from), false) = (&from, arguments.anyway) {
         check_origin(from, &*outing)?;
     }
@@ -172,13 +158,13 @@ pub(super) fn carry_out(
         Some(before) => before.then(truth),
         None => truth,
     };
-    let text = outing.map_file().map_err(anyhow::Error::from_boxed)?;
+    let text = outing.map_file().unboxed()?;
     let text = text.map(|text| MapText::with_truth(&text, &truth));
     let text = text.transpose()?;
     if let (Err(Failure::Interrupted(_)), Some(text)) = (&pursued, &text) {
         file::write(&arguments.out, text)?;
     }
-    let Pursued { ended, told } = pursued?;
+    let Pursued { ended, told, .. } = pursued?;
     let own = Claim::complaint(&ended.end, task, &*outing);
     let Some(text) = text else {
         let why = own.unwrap_or_else(|| "it keeps none".to_owned());
@@ -188,12 +174,12 @@ pub(super) fn carry_out(
         )));
     };
     let map = of_text(&arguments.out, &text)?;
-    let map = system.map(&map).map_err(of_registry)?;
+    let map = system.map(&map).unboxed()?;
     file::write(&arguments.out, text)?;
     let is_judged = task == Task::Explore && is_known;
     let verdict = Verdict::of(system, &*outing, &*map, is_judged.then_some(&truth), own);
-    if arguments.looks.json {
-        let json = json!({
+    let json = || {
+        json!({
             "system": system.name(),
             "maze": setup.world,
             "seed": setup.seed,
@@ -203,18 +189,18 @@ pub(super) fn carry_out(
             "right": verdict.judged.as_ref().map(Option::is_none),
             "complaint": verdict.complaint,
             "map": map.json(),
-        });
-        writeln!(out, "{json:#}")?;
-    } else {
+        })
+    };
+    looks.tell(out, json, |out| {
         writeln!(out, "{told}")?;
         for line in map.lines().iter().take(MOST_LINES) {
             writeln!(out, "{line}")?;
         }
-        if let (Some(Some(found)), None) = (&verdict.judged, &verdict.complaint) {
-            writeln!(out, "as a map of places: {found}")?;
+        match (&verdict.judged, &verdict.complaint) {
+            (Some(Some(found)), None) => writeln!(out, "as a map of places: {found}"),
+            _ => Ok(()),
         }
-        tell_replay(&arguments.looks, out)?;
-    }
+    })?;
     match verdict.complaint {
         None => Ok(()),
         Some(complaint) => Err(Failure::Failed(anyhow!(

@@ -1,9 +1,12 @@
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use anyhow::anyhow;
+use anyhow::{Error, anyhow};
+use serde_json::Value;
+use tolman_replay::Replay;
 
-use super::Failure;
 use super::replay_file::{self, Overwrite};
+use super::{Failure, Result, file};
 
 /// Options for showing and recording a run.
 #[derive(clap::Args)]
@@ -37,7 +40,7 @@ impl Looks {
     ///
     /// # Errors
     /// Bad input if `path` holds several `mazes` and an option needs a single one.
-    pub(super) fn of_one(&self, path: &Path, mazes: usize) -> Result<(), Failure> {
+    pub(super) fn of_one(&self, path: &Path, mazes: usize) -> Result {
         let flags = [
             ("--live", self.live),
             ("--svg", self.svg.is_some()),
@@ -58,16 +61,65 @@ impl Looks {
         self.live || self.svg.is_some() || self.trace.is_some() || self.replay.is_some()
     }
 
-    /// Returns the rule for the existing files that the replay may overwrite. It is called before
-    /// the work begins.
+    /// Refuses to overwrite a file that is not a replay. It is called before the work begins.
     ///
     /// # Errors
     /// Bad input if the file exists and is not a replay.
-    pub(super) fn overwrite(&self) -> Result<Overwrite, Failure> {
-        let overwrite = Overwrite::if_forced(self.force);
-        if let Some(path) = &self.replay {
-            replay_file::check(path, overwrite)?;
+    pub(super) fn check(&self) -> Result {
+        match &self.replay {
+            Some(path) => replay_file::check(path, Overwrite::if_forced(self.force)),
+            None => Ok(()),
         }
-        Ok(overwrite)
+    }
+
+    /// Writes the files that are asked for, each as its function makes it.
+    ///
+    /// # Errors
+    /// If one cannot be made or written.
+    pub(super) fn write(
+        &self,
+        trace: impl FnOnce() -> Result<Vec<u8>, Error>,
+        svg: impl FnOnce() -> String,
+        replay: impl FnOnce() -> Replay,
+    ) -> Result {
+        if let Some(path) = &self.trace {
+            file::write(path, trace()?)?;
+        }
+        if let Some(path) = &self.svg {
+            file::write(path, svg())?;
+        }
+        match &self.replay {
+            Some(path) => replay_file::write(path, replay(), Overwrite::if_forced(self.force)),
+            None => Ok(()),
+        }
+    }
+
+    /// Tells the outcome: as indented JSON if that is asked for, or else by `tell` and the address
+    /// of the replay.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub(super) fn tell(
+        &self,
+        out: &mut dyn Write,
+        json: impl FnOnce() -> Value,
+        tell: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result {
+        if self.json {
+            return Ok(writeln!(out, "{:#}", json())?);
+        }
+        tell(out)?;
+        self.tell_replay(out)
+    }
+
+    /// Writes the address of the replay, if there is one.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub(super) fn tell_replay(&self, out: &mut dyn Write) -> Result {
+        match &self.replay {
+            Some(path) => replay_file::tell(path, out),
+            None => Ok(()),
+        }
     }
 }

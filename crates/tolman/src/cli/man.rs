@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use anyhow::Context;
 use clap::CommandFactory;
 
-use super::Failure;
+use super::Result;
 
 /// Writes the manual page, or the pages of all verbs into a folder
 #[derive(clap::Args)]
@@ -21,7 +21,7 @@ pub(super) struct Arguments {
     out: Option<PathBuf>,
 }
 
-pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     let command = super::Arguments::command();
     match &arguments.out {
         Some(folder) => Ok(fs::create_dir_all(folder)

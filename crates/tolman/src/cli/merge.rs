@@ -5,10 +5,10 @@ use std::path::PathBuf;
 
 use anyhow::anyhow;
 use clap::Parser;
-use tolman_experiment::{Options, Terminal, command_of_chunks, merge, open};
+use tolman_experiment::{Options, Terminal, command_of_chunks, merge};
 
 use super::experiment::{self, classify, show};
-use super::{App, Failure, OrBadInput, interrupt};
+use super::{App, Failure, OrBadInput, Result, interrupt};
 
 /// Merges the shares of an experiment and shows its tables
 #[derive(clap::Args)]
@@ -32,11 +32,7 @@ struct Whole {
     arguments: experiment::Arguments,
 }
 
-pub(super) fn carry_out(
-    app: &App<'_>,
-    arguments: &Arguments,
-    out: &mut dyn Write,
-) -> Result<(), Failure> {
+pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -> Result {
     let results = &arguments.results;
     let command = command_of_chunks(results).map_err(classify)?;
     let words = shlex::split(&command).unwrap_or_default();
@@ -52,10 +48,10 @@ pub(super) fn carry_out(
         out: Some(results.clone()),
         ..options
     };
-    let experiment = open(&app.catalogue.experiments, name, &options).map_err(classify)?;
+    let experiment = app.experiment(name, &options)?;
     let progress = Terminal::new(interrupt::flag()?);
     show(
-        &merge(&experiment, &options, app.build, &progress).map_err(classify)?,
+        &merge(&experiment, &options, &app.build, &progress).map_err(classify)?,
         out,
     )
 }

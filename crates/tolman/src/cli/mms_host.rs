@@ -6,8 +6,8 @@ use core::time::Duration;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::anyhow;
-use serde_json::json;
+use anyhow::{Error, anyhow};
+use serde_json::{Value, json};
 use tolman_arena::foreign::{Launch, Log};
 use tolman_arena::micromouse::SideSeen;
 use tolman_arena::mms::{Exchange, Hosted, Limits, MouseExit, host};
@@ -16,9 +16,9 @@ use tolman_maze::{Cell, Direction, Grid, Maze};
 
 use super::looks::Looks;
 use super::maze::Collection;
-use super::mouse::{Came, Way, WayStep, half_cells};
-use super::send::tell_replay;
-use super::{Failure, OrBadInput, interrupt, keep, maze};
+use super::mice::{MouseResult, all_solved, tell};
+use super::mouse::{Came, PITCH, Way, WayStep, half_cells};
+use super::{Failure, OrBadInput, Result, interrupt, keep, maze};
 
 /// Hosts a mouse that speaks the protocol of the simulator mms, without a window, and scores it
 #[derive(clap::Args)]
@@ -64,7 +64,7 @@ pub(super) struct Arguments {
     looks: Looks,
 }
 
-pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     let words = shlex::split(&arguments.mouse)
         .ok_or_else(|| {
             anyhow!(
@@ -74,7 +74,8 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         })
         .or_bad_input()?;
     let limits = arguments.limits()?;
-    let Collection { mazes, unsound } = Collection::read(&arguments.maze)?;
+    let looks = &arguments.looks;
+    let Collection { mazes, mut unsound } = Collection::read(&arguments.maze, looks)?;
     let stop = interrupt::flag()?;
     let keeper = keep::keeper();
     let mouse = Launch {
@@ -86,43 +87,20 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         },
         stop: &stop,
     };
-    let looks = &arguments.looks;
-    looks.of_one(&arguments.maze, mazes.len() + unsound.len())?;
-    looks.overwrite()?;
     let hosted = maze::each(&mazes, arguments.jobs, |file, maze| {
         if stop.load(Ordering::Relaxed) {
             return Ok(None);
         }
-        let mut watched = match looks.any() {
-            true => Some(Watched::new(arguments, file, maze)?),
-            false => None,
-        };
+        let mut watched = Watched::new(arguments, file, maze)?;
         let hosted = host(&mouse, maze, &limits, |exchange| {
             if let Some(watched) = &mut watched {
                 watched.hear(exchange);
             }
         });
-        Ok(Some((hosted.or_bad_input()?, watched)))
+        let way = watched.map(|watched| watched.way);
+        Ok(Some((file, hosted.or_bad_input()?, way)))
     })?;
-    let mut tried: Vec<(&Path, Hosted)> = Vec::new();
-    for ((file, _), hosted) in mazes.iter().zip(hosted) {
-        let Some((hosted, watched)) = hosted else {
-            continue;
-        };
-        if let Some(watched) = watched {
-            watched.way.show(looks, &outcome(&hosted))?;
-        }
-        arguments.tell(file, &hosted, out)?;
-        tried.push((file, hosted));
-    }
-    if tried.len() > 1 && !looks.json {
-        writeln!(out, "{}", summary(&tried))?;
-    }
-    if !looks.json {
-        tell_replay(looks, out)?;
-    }
-    // Results come before complaints, even if both streams go to one place.
-    out.flush()?;
+    let tried = tell(hosted.into_iter().flatten(), looks, out, |_, _| Ok(()))?;
     unsound.complain(mazes.len())?;
     if stop.load(Ordering::Relaxed) {
         let interrupted = |(_, hosted): &&(&Path, Hosted)| hosted.ended != MouseExit::Interrupted;
@@ -132,11 +110,11 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
             mazes.len()
         )));
     }
-    maze::all_solved(tried.iter().map(|(file, hosted)| (*file, hosted.solved)))
+    all_solved(&tried)
 }
 
 impl Arguments {
-    fn limits(&self) -> Result<Limits, Failure> {
+    fn limits(&self) -> Result<Limits> {
         let time = Duration::try_from_secs_f64(self.time_limit)
             .ok()
             .filter(|time| (Duration::from_millis(1)..=LONGEST).contains(time))
@@ -154,16 +132,6 @@ impl Arguments {
             reset_after: self.reset_after,
         })
     }
-
-    fn tell(&self, file: &Path, hosted: &Hosted, out: &mut dyn Write) -> Result<(), Failure> {
-        let name = maze::name(file);
-        if self.looks.json {
-            let mut line = serde_json::to_value(hosted)?;
-            line["maze"] = json!(name);
-            return Ok(writeln!(out, "{line}")?);
-        }
-        Ok(writeln!(out, "{name}: {}", outcome(hosted))?)
-    }
 }
 
 /// A mouse whose movements are shown.
@@ -175,14 +143,15 @@ struct Watched {
 }
 
 impl Watched {
-    fn new(arguments: &Arguments, file: &Path, maze: &Maze) -> Result<Self, Failure> {
+    /// Returns a mouse that is about to begin; `None` if it is not to be shown.
+    fn new(arguments: &Arguments, file: &Path, maze: &Maze) -> Result<Option<Self>> {
         let header = json!({ "rules": "mms", "mouse": arguments.mouse });
-        let way = Way::new(maze::name(file), &of_mms(maze), header)?;
-        Ok(Self {
-            way: way.watched(&arguments.looks, None)?,
+        let way = Way::watched(file, &of_mms(maze), header, PITCH, &arguments.looks, None)?;
+        Ok(way.map(|way| Self {
+            way,
             grid: maze.grid(),
             sensed: Vec::new(),
-        })
+        }))
     }
 
     fn hear(&mut self, exchange: &Exchange) {
@@ -241,24 +210,43 @@ fn way_step(exchange: &Exchange, sensed: &[SideSeen]) -> WayStep {
     }
 }
 
-/// Returns the outcome of a mouse in words.
-fn outcome(hosted: &Hosted) -> String {
-    let came = if hosted.solved {
-        "solved"
-    } else {
-        "not solved"
-    };
-    let Hosted {
-        score,
-        score_in_cells,
-        movements,
-        crashes,
-        ..
-    } = hosted;
-    format!(
-        "{came}, score {score:.1} ({score_in_cells:.1} in cells), {movements} movements, {crashes} crashes, {}",
-        how(hosted.ended)
-    )
+impl MouseResult for Hosted {
+    fn outcome(&self) -> String {
+        let came = if self.solved { "solved" } else { "not solved" };
+        let Self {
+            score,
+            score_in_cells,
+            movements,
+            crashes,
+            ..
+        } = self;
+        format!(
+            "{came}, score {score:.1} ({score_in_cells:.1} in cells), {movements} movements, {crashes} crashes, {}",
+            how(self.ended)
+        )
+    }
+
+    fn json(&self) -> Result<Value, Error> {
+        Ok(serde_json::to_value(self)?)
+    }
+
+    fn has_solved(&self) -> bool {
+        self.solved
+    }
+
+    fn summary(hosted: &[(&Path, Self)]) -> String {
+        let count = hosted.len() as f32;
+        let mean = |score: fn(&Self) -> f32| {
+            hosted.iter().map(|(_, hosted)| score(hosted)).sum::<f32>() / count
+        };
+        let solved = hosted.iter().filter(|(_, hosted)| hosted.solved).count();
+        format!(
+            "{solved} of {} solved, mean score {:.1} ({:.1} in cells)",
+            hosted.len(),
+            mean(|hosted| hosted.score),
+            mean(|hosted| hosted.score_in_cells)
+        )
+    }
 }
 
 /// Longest time limit that can be given: a day.
@@ -276,18 +264,4 @@ fn how(ended: MouseExit) -> &'static str {
         MouseExit::Interrupted => "interrupted",
         _ => "stopped",
     }
-}
-
-fn summary(hosted: &[(&Path, Hosted)]) -> String {
-    let count = hosted.len() as f32;
-    let mean = |score: fn(&Hosted) -> f32| {
-        hosted.iter().map(|(_, hosted)| score(hosted)).sum::<f32>() / count
-    };
-    let solved = hosted.iter().filter(|(_, hosted)| hosted.solved).count();
-    format!(
-        "{solved} of {} solved, mean score {:.1} ({:.1} in cells)",
-        hosted.len(),
-        mean(|hosted| hosted.score),
-        mean(|hosted| hosted.score_in_cells)
-    )
 }

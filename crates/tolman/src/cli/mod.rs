@@ -26,6 +26,7 @@ mod man;
 mod map;
 mod maze;
 mod merge;
+mod mice;
 mod mms_host;
 mod mouse;
 mod picture;
@@ -42,7 +43,6 @@ mod stdout;
 mod systems;
 mod trial;
 mod unfinished;
-mod watched;
 mod words;
 
 use std::io::Write;
@@ -50,10 +50,9 @@ use std::process::ExitCode;
 
 use anyhow::anyhow;
 use clap::{Parser, Subcommand};
-use failure::{Failure, OrBadInput, of_registry};
+use failure::{Failure, OrBadInput, Result, Unboxed, unknown};
 use stdout::{Stdout, ink};
 use tolman_arena::registry::{MapText, Registry, RobotEntry, SystemEntry};
-use tolman_experiment::choices;
 
 use crate::{Build, Catalogue, Family};
 
@@ -122,12 +121,12 @@ enum Verb {
 }
 
 /// Parameters that every verb gets beside its arguments.
-struct App<'a> {
-    catalogue: &'a Catalogue,
-    build: &'a Build,
+struct App {
+    catalogue: Catalogue,
+    build: Build,
 }
 
-impl App<'_> {
+impl App {
     /// Returns the systems, robots and families that the command knows.
     fn registry(&self) -> &Registry {
         &self.catalogue.registry
@@ -141,7 +140,7 @@ impl App<'_> {
         &self,
         name: &str,
         is_fit: impl Fn(&dyn SystemEntry) -> bool,
-    ) -> Result<&'static dyn SystemEntry, Failure> {
+    ) -> Result<&'static dyn SystemEntry> {
         let named = self.registry().system(name);
         if let Some(system) = named.filter(|system| is_fit(*system)) {
             return Ok(system);
@@ -157,23 +156,17 @@ impl App<'_> {
             Some(_) => format!("{name} does not do this"),
             None => format!("there is no system {name}"),
         };
-        Err(Failure::BadInput(anyhow!(
-            "{fault}; {}",
-            choices(name, fit.map(|system| system.name()))
-        )))
+        Err(unknown(&fault, name, fit.map(|system| system.name())))
     }
 
     /// Returns the robot called `name`.
     ///
     /// # Errors
     /// Bad input if there is none.
-    fn robot(&self, name: &str) -> Result<RobotEntry, Failure> {
+    fn robot(&self, name: &str) -> Result<RobotEntry> {
         self.registry().robot(name).ok_or_else(|| {
             let names = self.registry().robots.iter().map(|robot| robot.name);
-            Failure::BadInput(anyhow!(
-                "there is no robot {name}; {}",
-                choices(name, names)
-            ))
+            unknown(&format!("there is no robot {name}"), name, names)
         })
     }
 
@@ -181,7 +174,7 @@ impl App<'_> {
     ///
     /// # Errors
     /// Bad input that says why not.
-    fn robot_for(&self, system: &dyn SystemEntry, name: &str) -> Result<RobotEntry, Failure> {
+    fn robot_for(&self, system: &dyn SystemEntry, name: &str) -> Result<RobotEntry> {
         let robot = self.robot(name)?;
         match system.why_not(&robot) {
             None => Ok(robot),
@@ -202,14 +195,11 @@ impl App<'_> {
     ///
     /// # Errors
     /// Bad input if there is none.
-    fn family(&self, name: &str) -> Result<&Family, Failure> {
+    fn family(&self, name: &str) -> Result<&Family> {
         let families = &self.registry().families;
         Family::named(families, name).ok_or_else(|| {
             let names = families.iter().map(|family| family.name);
-            Failure::BadInput(anyhow!(
-                "there is no family {name}; {}",
-                choices(name, names)
-            ))
+            unknown(&format!("there is no family {name}"), name, names)
         })
     }
 
@@ -217,7 +207,7 @@ impl App<'_> {
     ///
     /// # Errors
     /// Bad input if this program does not know it.
-    fn system_of(&self, map: &MapText) -> Result<&'static dyn SystemEntry, Failure> {
+    fn system_of(&self, map: &MapText) -> Result<&'static dyn SystemEntry> {
         self.registry().system(&map.system).ok_or_else(|| {
             Failure::BadInput(anyhow!(
                 "{}: its system, {}, is unknown to this program",
@@ -240,9 +230,11 @@ pub fn run(catalogue: &Catalogue, build: &Build) -> ExitCode {
     let _ = catalogue.registry.clone().install();
     let arguments = Arguments::parse();
     let mut out = Stdout::lock();
-    let done = arguments
-        .verb
-        .carry_out(&App { catalogue, build }, &mut out);
+    let app = App {
+        catalogue: catalogue.clone(),
+        build: build.clone(),
+    };
+    let done = arguments.verb.carry_out(&app, &mut out);
     // Results come before the failure, even if both streams go to one place.
     let written = out.flush();
     let done = done.and_then(|()| Ok(written?));
@@ -258,7 +250,7 @@ pub fn run(catalogue: &Catalogue, build: &Build) -> ExitCode {
 }
 
 impl Verb {
-    fn carry_out(self, app: &App<'_>, out: &mut dyn Write) -> Result<(), Failure> {
+    fn carry_out(self, app: &App, out: &mut dyn Write) -> Result {
         match self {
             Self::Learn(arguments) => learn::carry_out(app, &arguments, out),
             Self::Drive(arguments) => drive::carry_out(app, &arguments, out),

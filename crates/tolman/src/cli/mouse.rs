@@ -9,8 +9,8 @@ mod way;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, anyhow};
-use serde_json::json;
+use anyhow::{Context, Error, anyhow};
+use serde_json::{Value, json};
 use tolman_arena::micromouse::{
     self, Judgement, MAX_STEPS, MouseTrial, RefereedStep, Ruling, sides_seen,
 };
@@ -20,10 +20,10 @@ use tolman_systems::micromouse::{Movement, Order, Rotation, Searcher, Until};
 
 use super::looks::Looks;
 use super::maze::Collection;
-use super::send::tell_replay;
+use super::mice::{MouseResult, send_all};
 use super::words::words;
-use super::{Failure, OrBadInput, maze};
-pub(super) use way::{Came, Way, WayStep, half_cells};
+use super::{Failure, OrBadInput, Result, maze};
+pub(super) use way::{Came, PITCH, Way, WayStep, half_cells};
 
 /// Sends a micromouse through mazes: it explores, proves its run, and drives it
 #[derive(clap::Args)]
@@ -95,49 +95,28 @@ const UNTIL: [(&str, &str, Until); 3] = [
 
 /// A maze, and the results of the mouse in it.
 struct Tried<'a> {
-    file: &'a Path,
+    search: Searcher,
     maze: &'a Maze,
     trial: MouseTrial,
     judgement: Judgement,
 }
 
-pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     // clap requires one of the two.
     let Some(path) = arguments.maze.as_ref().filter(|_| !arguments.mms) else {
         return mms::carry_out(arguments.until.unwrap_or(Until::Goal), out);
     };
     let search = arguments.search()?;
-    let Collection { mazes, mut unsound } = Collection::read(path)?;
-    let files = mazes.len() + unsound.len();
-    arguments.looks.of_one(path, files)?;
-    arguments.looks.overwrite()?;
-    // A maze that no mouse can run in must not stop the others.
-    let sent = maze::each(&mazes, arguments.jobs, |file, maze| {
-        Ok(arguments.send(search, file, maze))
-    })?;
-    let (tried, ways): (Vec<Tried<'_>>, Vec<Option<Way>>) = unsound.sift(sent).unzip();
-    for (tried, way) in tried.iter().zip(ways) {
-        if let Some(way) = way {
-            way.show(&arguments.looks, &tried.outcome())?;
-        }
-        arguments.tell(search, tried, out)?;
-    }
-    if !arguments.looks.json {
-        let drawn = if tried.len() > 1 { arguments.worst } else { 1 };
-        draw_worst(&tried, drawn, out)?;
-        if tried.len() > 1 {
-            writeln!(out, "{}", summary(&tried))?;
-        }
-    }
-    if !arguments.looks.json {
-        tell_replay(&arguments.looks, out)?;
-    }
-    out.flush()?;
-    unsound.complain(tried.len())?;
-    let solved = tried
-        .iter()
-        .map(|tried| (tried.file, tried.judgement.score.is_some()));
-    maze::all_solved(solved)
+    let looks = &arguments.looks;
+    let mut collection = Collection::read(path, looks)?;
+    send_all(
+        &mut collection,
+        arguments.jobs,
+        looks,
+        out,
+        |file, maze| arguments.send(search, file, maze),
+        |tried, out| draw_worst(tried, arguments.worst, out),
+    )
 }
 
 impl Arguments {
@@ -145,7 +124,7 @@ impl Arguments {
     ///
     /// # Errors
     /// Bad input if the options only fit `--mms`.
-    fn search(&self) -> Result<Searcher, Failure> {
+    fn search(&self) -> Result<Searcher> {
         match self.until {
             None => Ok(self.search),
             Some(Until::Proof) => Ok(Searcher::Certify),
@@ -156,36 +135,19 @@ impl Arguments {
         }
     }
 
-    fn tell(
-        &self,
-        search: Searcher,
-        tried: &Tried<'_>,
-        out: &mut dyn Write,
-    ) -> Result<(), Failure> {
-        let name = maze::name(tried.file);
-        let judgement = &tried.judgement;
-        if self.looks.json {
-            let mut line = serde_json::to_value(judgement)?;
-            line["maze"] = json!(name);
-            line["search"] = json!(search.name());
-            line["above_floor"] = json!(judgement.above_floor());
-            line["gave_up"] = json!(tried.why());
-            return Ok(writeln!(out, "{line}")?);
-        }
-        Ok(writeln!(out, "{name}: {}", tried.outcome())?)
-    }
-
     /// Sends the mouse through a maze, and shows its way meanwhile if that is asked for.
     fn send<'a>(
         &self,
         search: Searcher,
         file: &'a Path,
         maze: &'a Maze,
-    ) -> Result<(Tried<'a>, Option<Way>), Failure> {
-        let mut way = match self.looks.any() {
-            true => Some(self.way(search, file, maze)?),
-            false => None,
-        };
+    ) -> Result<(Tried<'a>, Option<Way>)> {
+        let header = json!({
+            "rules": "Plot and Navigate a Virtual Maze",
+            "search": search.name(),
+            "seed": self.seed,
+        });
+        let mut way = Way::watched(file, maze, header, PITCH, &self.looks, Some(MAX_STEPS))?;
         let mut at = maze.start();
         let tried = micromouse::try_on(maze, search, self.seed, |step| {
             let Some(way) = &mut way else {
@@ -199,23 +161,12 @@ impl Arguments {
         });
         let (trial, judgement) = tried.with_context(|| maze::name(file)).or_bad_input()?;
         let tried = Tried {
-            file,
+            search,
             maze,
             trial,
             judgement,
         };
         Ok((tried, way))
-    }
-
-    /// Returns the way that the mouse is about to go, with no steps yet.
-    fn way(&self, search: Searcher, file: &Path, maze: &Maze) -> Result<Way, Failure> {
-        let header = json!({
-            "rules": "Plot and Navigate a Virtual Maze",
-            "search": search.name(),
-            "seed": self.seed,
-        });
-        let way = Way::new(maze::name(file), maze, header)?;
-        way.watched(&self.looks, Some(MAX_STEPS))
     }
 }
 
@@ -224,8 +175,21 @@ impl Tried<'_> {
     fn why(&self) -> Option<&str> {
         Some(self.trial.end.why()).filter(|why| !why.is_empty())
     }
+}
 
-    /// Returns the outcome in words.
+impl MouseResult for Tried<'_> {
+    fn json(&self) -> Result<Value, Error> {
+        let mut line = serde_json::to_value(self.judgement)?;
+        line["search"] = json!(self.search.name());
+        line["above_floor"] = json!(self.judgement.above_floor());
+        line["gave_up"] = json!(self.why());
+        Ok(line)
+    }
+
+    fn has_solved(&self) -> bool {
+        self.judgement.score.is_some()
+    }
+
     fn outcome(&self) -> String {
         let judgement = &self.judgement;
         match (judgement.run_1, judgement.run_2, judgement.score) {
@@ -239,6 +203,28 @@ impl Tried<'_> {
                 None => format!("not done after {} steps", self.trial.steps.len()),
             },
         }
+    }
+
+    fn summary(tried: &[(&Path, Self)]) -> String {
+        let count = tried.len();
+        let done: Vec<&Judgement> = tried
+            .iter()
+            .map(|(_, tried)| &tried.judgement)
+            .filter(|judgement| judgement.score.is_some())
+            .collect();
+        let mean = |value: fn(&Judgement) -> Option<f64>| {
+            done.iter()
+                .filter_map(|judgement| value(judgement))
+                .sum::<f64>()
+                / done.len().max(1) as f64
+        };
+        let certified = done.iter().filter(|judgement| judgement.certified).count();
+        format!(
+            "{count} mazes: {} finished, {certified} proven; mean score {:.3}, {:.3} above the floor",
+            done.len(),
+            mean(|judgement| judgement.score),
+            mean(Judgement::above_floor),
+        )
     }
 }
 
@@ -278,16 +264,17 @@ fn in_words(order: Order) -> String {
     }
 }
 
-/// Draws `count` mazes: those not finished first, then those with the highest score above the
-/// floor.
-fn draw_worst(tried: &[Tried<'_>], count: usize, out: &mut dyn Write) -> Result<(), Failure> {
-    let mut order: Vec<&Tried<'_>> = tried.iter().collect();
-    order.sort_by(|a, b| {
+/// Draws `most` of the mazes: those not finished first, then those with the highest score above the
+/// floor. A single maze is always drawn.
+fn draw_worst(tried: &[(&Path, Tried<'_>)], most: usize, out: &mut dyn Write) -> Result {
+    let mut order: Vec<&(&Path, Tried<'_>)> = tried.iter().collect();
+    order.sort_by(|(_, a), (_, b)| {
         let above = |tried: &Tried<'_>| tried.judgement.above_floor().unwrap_or(f64::INFINITY);
         above(b).total_cmp(&above(a))
     });
-    for tried in order.into_iter().take(count) {
-        let name = maze::name(tried.file);
+    let count = if tried.len() > 1 { most } else { 1 };
+    for (file, tried) in order.into_iter().take(count) {
+        let name = maze::name(file);
         let drawing = drawing::of(tried.maze, &tried.trial);
         writeln!(
             out,
@@ -295,26 +282,4 @@ fn draw_worst(tried: &[Tried<'_>], count: usize, out: &mut dyn Write) -> Result<
         )?;
     }
     Ok(())
-}
-
-fn summary(tried: &[Tried<'_>]) -> String {
-    let count = tried.len();
-    let done: Vec<&Judgement> = tried
-        .iter()
-        .map(|tried| &tried.judgement)
-        .filter(|judgement| judgement.score.is_some())
-        .collect();
-    let mean = |value: fn(&Judgement) -> Option<f64>| {
-        done.iter()
-            .filter_map(|judgement| value(judgement))
-            .sum::<f64>()
-            / done.len().max(1) as f64
-    };
-    let certified = done.iter().filter(|judgement| judgement.certified).count();
-    format!(
-        "{count} mazes: {} finished, {certified} proven; mean score {:.3}, {:.3} above the floor",
-        done.len(),
-        mean(|judgement| judgement.score),
-        mean(Judgement::above_floor),
-    )
 }

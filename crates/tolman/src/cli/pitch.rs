@@ -10,14 +10,13 @@ use rand_chacha::ChaCha8Rng;
 use serde_json::json;
 use tolman_arena::gngslam::{DataSet, Pitch, PlaceScorer, gather};
 use tolman_draw::{Figure, FloorPlan, GraphNode, GraphPicture, NodeMark, Series};
-use tolman_formats::input;
 use tolman_maps::place_map::{
     ColourSpace, FeatureChoice, FeatureTable, ImageFeature, ImageForm, PlaceMap, PlaceMapConfig,
     PlaceRecord,
 };
 
 use super::share::share;
-use super::{Failure, OrBadInput, file};
+use super::{Failure, OrBadInput, Result, file};
 
 /// Writes arenas for the place map of GNG-SLAM, and gathers data sets in them
 ///
@@ -109,7 +108,7 @@ pub(super) struct Score {
 }
 
 impl Verb {
-    pub(super) fn carry_out(self, out: &mut dyn Write) -> Result<(), Failure> {
+    pub(super) fn carry_out(self, out: &mut dyn Write) -> Result {
         match self {
             Self::World(arguments) => world(&arguments, out),
             Self::Gather(arguments) => gathered(&arguments, out),
@@ -119,40 +118,29 @@ impl Verb {
     }
 }
 
-fn world(arguments: &World, out: &mut dyn Write) -> Result<(), Failure> {
+fn world(arguments: &World, out: &mut dyn Write) -> Result {
     let pitch = Pitch::named(&arguments.name).or_bad_input()?;
     let text = pitch.course.world.to_json()? + "\n";
-    match &arguments.out {
-        Some(path) => file::write(path, text),
-        None => Ok(out.write_all(text.as_bytes())?),
-    }
+    file::write_or_show(arguments.out.as_deref(), &text, out)
 }
 
-fn gathered(arguments: &Gather, out: &mut dyn Write) -> Result<(), Failure> {
+fn gathered(arguments: &Gather, out: &mut dyn Write) -> Result {
     let seed = arguments.seed;
     let pitch = Pitch::named(&arguments.name).or_bad_input()?;
     let robot = pitch.robot(seed, arguments.calibration).or_bad_input()?;
     let data = gather(&pitch, robot, seed, arguments.records).or_bad_input()?;
     file::write(&arguments.out, data.to_text()?)?;
-    for line in lines(&data) {
-        writeln!(out, "{line}")?;
-    }
-    Ok(())
+    tell(&data, out)
 }
 
 /// Returns the data set of a file.
 ///
 /// # Errors
 /// Bad input with the file's name.
-fn read(path: &Path) -> Result<DataSet, Failure> {
-    let name = path.display();
-    let text = input::text(path)
-        .with_context(|| {
-            format!("cannot read {name}; give a file that `tolman pitch gather` wrote")
-        })
-        .or_bad_input()?;
+fn read(path: &Path) -> Result<DataSet> {
+    let text = file::read(path, "give a file that `tolman pitch gather` wrote")?;
     DataSet::from_text(&text)
-        .with_context(|| name.to_string())
+        .with_context(|| path.display().to_string())
         .or_bad_input()
 }
 
@@ -172,24 +160,24 @@ fn drift(data: &DataSet) -> f64 {
     (first.truth.compose(rolled).position - last.truth.position).norm()
 }
 
-fn lines(data: &DataSet) -> Vec<String> {
-    vec![
-        format!(
-            "{}, seed {}: {} records",
-            data.arena,
-            data.seed,
-            data.records.len()
-        ),
-        format!("{} of them with a wrong cell", mislabelled(data)),
-        format!(
-            "record {} shows the blue goal, record {} the yellow one",
-            data.goals.blue, data.goals.yellow
-        ),
-        format!("the odometry ends {:.2} m from the truth", drift(data)),
-    ]
+/// Writes what a data set holds.
+fn tell(data: &DataSet, out: &mut dyn Write) -> Result {
+    let count = data.records.len();
+    writeln!(out, "{}, seed {}: {count} records", data.arena, data.seed)?;
+    writeln!(out, "{} of them with a wrong cell", mislabelled(data))?;
+    writeln!(
+        out,
+        "record {} shows the blue goal, record {} the yellow one",
+        data.goals.blue, data.goals.yellow
+    )?;
+    let drift = drift(data);
+    Ok(writeln!(
+        out,
+        "the odometry ends {drift:.2} m from the truth"
+    )?)
 }
 
-fn show(arguments: &Show, out: &mut dyn Write) -> Result<(), Failure> {
+fn show(arguments: &Show, out: &mut dyn Write) -> Result {
     let data = read(&arguments.file)?;
     if let Some(path) = &arguments.svg {
         file::write(path, picture(&data)?)?;
@@ -205,17 +193,14 @@ fn show(arguments: &Show, out: &mut dyn Write) -> Result<(), Failure> {
         });
         return Ok(writeln!(out, "{json:#}")?);
     }
-    for line in lines(&data) {
-        writeln!(out, "{line}")?;
-    }
-    Ok(())
+    tell(&data, out)
 }
 
 /// Width of the picture, user units.
 const WIDTH: f64 = 640.0;
 
 /// Returns the arena with the places of the records. Filled ones show the goals best.
-fn picture(data: &DataSet) -> Result<String, Failure> {
+fn picture(data: &DataSet) -> Result<String> {
     let pitch = Pitch::named(&data.arena).or_bad_input()?;
     let mut plan = FloorPlan::of_world(&pitch.course.world, WIDTH);
     let mut graph = GraphPicture::new().radius(2.0);
@@ -234,7 +219,7 @@ fn picture(data: &DataSet) -> Result<String, Failure> {
     Ok(Figure::new("records", &data.arena, drawing).standalone())
 }
 
-fn score(arguments: &Score, out: &mut dyn Write) -> Result<(), Failure> {
+fn score(arguments: &Score, out: &mut dyn Write) -> Result {
     let data = read(&arguments.file)?;
     let pitch = Pitch::named(&data.arena).or_bad_input()?;
     let records = data.records.iter().map(|record| record.record.clone());

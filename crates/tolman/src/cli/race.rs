@@ -16,11 +16,12 @@ use tolman_systems::micromouse::competition::{ExploreError, SpeedRunExploration}
 
 use super::looks::Looks;
 use super::maze::Collection;
+use super::mice::send_all;
 use super::mouse::Way;
-use super::send::tell_replay;
 use super::words::words;
-use super::{Failure, OrBadInput, maze};
+use super::{OrBadInput, Result, maze};
 use params::Params;
+use shown::Shown;
 
 /// Sends a competition micromouse through mazes: it explores, proves its fast run, and writes its
 /// moves
@@ -75,9 +76,8 @@ const KINDS: [(&str, &str, Kind); 2] = [
     ("half-size", "Cells of 90 mm, up to 32 × 32", Kind::HalfSize),
 ];
 
-/// A maze and the mouse's exploration of it.
-struct Raced<'a> {
-    file: &'a Path,
+/// The mouse's exploration of a maze.
+struct Raced {
     config: SpeedRunConfig,
     /// The exploration; `None` if there is no way to a goal that the mouse can drive.
     explored: Option<SpeedRunExploration>,
@@ -85,7 +85,7 @@ struct Raced<'a> {
     search_path: String,
 }
 
-pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     if let Some(kind) = arguments.template {
         return Ok(out.write_all(params::template(kind.config()).as_bytes())?);
     }
@@ -93,47 +93,23 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
         return Err(anyhow!("name a maze or a folder of mazes")).or_bad_input();
     };
     let params = Params::read(arguments.mouse.as_deref())?;
-    let Collection { mazes, mut unsound } = Collection::read(path)?;
     let looks = &arguments.looks;
-    looks.of_one(path, mazes.len() + unsound.len())?;
-    looks.overwrite()?;
-    // A maze that no mouse can run in must not stop the others.
-    let sent = maze::each(&mazes, arguments.jobs, |file, maze| {
-        Ok(send(file, maze, &params, looks))
-    })?;
-    let raced: Vec<(Raced<'_>, Option<Way>)> = unsound.sift(sent).collect();
-    let mut solved = Vec::new();
-    for (raced, way) in raced {
-        if let Some(way) = way {
-            way.show(looks, &raced.outcome())?;
-        }
-        raced.tell(looks.json, out)?;
-        solved.push(raced);
-    }
-    if !looks.json {
-        if solved.len() > 1 {
-            writeln!(out, "{}", told::summary(&solved))?;
-        }
-        tell_replay(looks, out)?;
-    }
-    out.flush()?;
-    unsound.complain(solved.len())?;
-    maze::all_solved(solved.iter().map(|raced| (raced.file, raced.is_proven())))
+    let mut collection = Collection::read(path, looks)?;
+    send_all(
+        &mut collection,
+        arguments.jobs,
+        looks,
+        out,
+        |file, maze| send(file, maze, &params, looks),
+        |_, _| Ok(()),
+    )
 }
 
 /// Explores a maze, and shows the way meanwhile if that is asked for.
-fn send<'a>(
-    file: &'a Path,
-    maze: &'a Maze,
-    params: &Params,
-    looks: &Looks,
-) -> Result<(Raced<'a>, Option<Way>), Failure> {
+fn send(file: &Path, maze: &Maze, params: &Params, looks: &Looks) -> Result<(Raced, Option<Way>)> {
     let config = params.config_for(maze);
     let mut cells = Vec::new();
-    let mut way = match looks.any() {
-        true => Some(shown::Shown::new(file, maze, &config, looks)?),
-        false => None,
-    };
+    let mut way = Shown::new(file, maze, &config, looks)?;
     let explored = competition::explore(maze, &config, |cell, open| {
         if let Some(way) = &mut way {
             way.arrive(cell, open);
@@ -149,12 +125,11 @@ fn send<'a>(
         way.run(&explored.run);
     }
     let raced = Raced {
-        file,
         config,
         search_path: told::search_path(maze, &cells),
         explored,
     };
-    Ok((raced, way.map(shown::Shown::into_way)))
+    Ok((raced, way.map(Shown::into_way)))
 }
 
 impl Kind {
@@ -163,12 +138,5 @@ impl Kind {
             Self::Classic => SpeedRunConfig::classic(),
             Self::HalfSize => SpeedRunConfig::half_size(),
         }
-    }
-}
-
-impl Raced<'_> {
-    fn is_proven(&self) -> bool {
-        let explored = self.explored.as_ref();
-        explored.is_some_and(|explored| explored.verdict.is_ok())
     }
 }

@@ -5,13 +5,12 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use serde_json::Value;
-use tolman_formats::input;
 use tolman_replay::{Portrait, Replay, Trace, TraceComparison};
 use tolman_sim::robots::{CameraPioneer, Epuck, LaserPioneer, Pioneer2dx};
 
 use super::kind::Kind;
 use super::replay_file::{self, Overwrite};
-use super::{Failure, OrBadInput, maze};
+use super::{Failure, OrBadInput, Result, maze};
 
 /// Makes a replay from a trace: one HTML file that plays it in any browser
 #[derive(clap::Args)]
@@ -37,7 +36,7 @@ pub(super) struct Arguments {
     force: bool,
 }
 
-pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     let overwrite = Overwrite::if_forced(arguments.force);
     let path = arguments.path()?;
     if arguments.traces.contains(&path) {
@@ -70,15 +69,15 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<()
     for verdict in &verdicts {
         writeln!(out, "{verdict}")?;
     }
-    Ok(writeln!(out, "replay: {}", replay_file::address(&path))?)
+    replay_file::tell(&path, out)
 }
 
 impl Arguments {
     /// Returns the path of the replay.
-    fn path(&self) -> Result<PathBuf, Failure> {
+    fn path(&self) -> Result<PathBuf> {
         match (&self.out, self.traces.first()) {
             (Some(path), _) => Ok(path.clone()),
-            (None, Some(first)) if first.as_os_str() != "-" => Ok(first.with_extension("html")),
+            (None, Some(first)) if !maze::is_stdin(first) => Ok(first.with_extension("html")),
             _ => Err(Failure::BadInput(anyhow!(
                 "a trace from standard input has no name; name the replay with --out"
             ))),
@@ -100,7 +99,7 @@ impl Arguments {
 fn of<M: Portrait>(
     arguments: &Arguments,
     texts: &[(&PathBuf, String)],
-) -> Result<(Replay, Vec<TraceComparison>), Failure> {
+) -> Result<(Replay, Vec<TraceComparison>)> {
     let mut traces = Vec::new();
     for (path, text) in texts {
         let trace = Trace::<M>::read(arguments.short_name(path), text.as_bytes());
@@ -111,12 +110,8 @@ fn of<M: Portrait>(
 }
 
 /// Returns the text of the trace at `path`.
-fn text(path: &Path) -> Result<String, Failure> {
-    let text = if path.as_os_str() == "-" {
-        input::text_of(std::io::stdin().lock())
-    } else {
-        input::text(path)
-    };
-    text.with_context(|| format!("cannot read {}; give the path of a trace", maze::name(path)))
+fn text(path: &Path) -> Result<String> {
+    maze::source(path)
+        .with_context(|| format!("cannot read {}; give the path of a trace", maze::name(path)))
         .or_bad_input()
 }

@@ -1,14 +1,14 @@
 //! Writes replays to files.
 
 use std::fs::File;
-use std::io::Read;
+use std::io::{Read, Write};
 use std::path::Path;
 use std::sync::OnceLock;
 
 use anyhow::{Context, Error, anyhow};
 use tolman_replay::{Replay, is_replay, page};
 
-use super::{Failure, OrBadInput, called, file};
+use super::{Failure, OrBadInput, Result, called, file};
 use crate::ReplayFormat;
 
 /// Rule for the existing files that may be overwritten.
@@ -54,7 +54,7 @@ const ELSEWHERE: [(&str, &str); 2] = [
 ///
 /// # Errors
 /// Bad input if the file exists and is not a replay; a failure if it cannot be written.
-pub(super) fn write(path: &Path, replay: Replay, overwrite: Overwrite) -> Result<(), Failure> {
+pub(super) fn write(path: &Path, replay: Replay, overwrite: Overwrite) -> Result {
     check(path, overwrite)?;
     let replay = replay.fact("made by", called::command());
     let format = formats()
@@ -76,7 +76,7 @@ fn ends_in(path: &Path, extension: &str) -> bool {
 ///
 /// # Errors
 /// Bad input if it is another file, or of a format that this program cannot write.
-pub(super) fn check(path: &Path, overwrite: Overwrite) -> Result<(), Failure> {
+pub(super) fn check(path: &Path, overwrite: Overwrite) -> Result {
     refuse_unknown(path)?;
     if overwrite == Overwrite::Anything || !path.is_file() {
         return Ok(());
@@ -96,7 +96,7 @@ pub(super) fn check(path: &Path, overwrite: Overwrite) -> Result<(), Failure> {
 }
 
 /// Refuses a name that asks for a format which this program lacks.
-fn refuse_unknown(path: &Path) -> Result<(), Failure> {
+fn refuse_unknown(path: &Path) -> Result {
     let mut elsewhere = ELSEWHERE.iter();
     let asked = elsewhere.find(|(extension, _)| ends_in(path, extension));
     match asked {
@@ -116,8 +116,16 @@ fn begins_as_format(beginning: &[u8]) -> bool {
         .any(|format| beginning.starts_with(format.magic))
 }
 
+/// Writes where the replay at `path` is.
+///
+/// # Errors
+/// If it cannot be written.
+pub(super) fn tell(path: &Path, out: &mut dyn Write) -> Result {
+    Ok(writeln!(out, "replay: {}", address(path))?)
+}
+
 /// Returns the address with which a browser opens the file.
-pub(super) fn address(path: &Path) -> String {
+fn address(path: &Path) -> String {
     let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let plain = |byte: u8| byte.is_ascii_alphanumeric() || b"/-_.~:".contains(&byte);
     let mut address = "file://".to_owned();

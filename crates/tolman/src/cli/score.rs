@@ -12,7 +12,7 @@ use tolman_geom::Point;
 use tolman_robot::Trajectory;
 
 use super::words::counted;
-use super::{Failure, OrBadInput};
+use super::{Failure, OrBadInput, Result};
 
 /// Measures the error of a trajectory: against relative poses that a person verified, or against
 /// another trajectory
@@ -40,7 +40,7 @@ pub(super) struct Arguments {
     json: bool,
 }
 
-pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     let trajectory = ReadTrajectory::open(&arguments.trajectory)
         .or_bad_input()?
         .trajectory;
@@ -77,11 +77,7 @@ fn no_times(what: &str) -> Failure {
     ))
 }
 
-fn tell_relations(
-    as_json: bool,
-    score: &RelationScore,
-    out: &mut dyn Write,
-) -> Result<(), Failure> {
+fn tell_relations(as_json: bool, score: &RelationScore, out: &mut dyn Write) -> Result {
     let RelationScore {
         relations,
         missed,
@@ -120,7 +116,7 @@ fn tell_relations(
     Ok(())
 }
 
-fn tell_aligned(as_json: bool, score: &AlignedScore, out: &mut dyn Write) -> Result<(), Failure> {
+fn tell_aligned(as_json: bool, score: &AlignedScore, out: &mut dyn Write) -> Result {
     let AlignedScore {
         pairs,
         rms,

@@ -1,27 +1,31 @@
 //! Carries out any outing: shows it meanwhile and writes it down.
 
 use core::sync::atomic::Ordering;
-use std::io::Write;
 
 use anyhow::{Context, anyhow};
 use tolman_arena::run::{self, Ended, TaskEnd};
 use tolman_arena::{BoxError, Outing};
-use tolman_geom::Point;
-use tolman_robot::{Standing, Task};
+use tolman_geom::{Point, Pose};
+use tolman_robot::{Goal, Landmark, Standing, Task};
 
 use super::bar::Doing;
+use super::live::{Live, Scene};
 use super::looks::Looks;
 use super::unfinished::{Done, Keeper};
-use super::watched::Watched;
-use super::{Failure, file, interrupt, picture, replay_file};
+use super::{Failure, Result, Unboxed, interrupt, picture};
 use tolman_arena::registry::{MapText, Setup, slug};
 use tolman_film::Film;
+
+/// Task of every robot that drives to the goal.
+pub(super) const ARRIVE: Task = Task::Reach(Goal::Landmark(Landmark::Goal));
 
 /// Outcome of an outing.
 pub(super) struct Pursued {
     pub(super) ended: Ended,
     /// Outcome in words.
     pub(super) told: String,
+    /// Whether the robot is at the goal.
+    pub(super) has_arrived: bool,
 }
 
 /// Lets a system pursue a task to its end, shows it, and writes the requested files. `keeper` saves
@@ -38,13 +42,11 @@ pub(super) fn send(
     looks: &Looks,
     mut keeper: Keeper,
     mut see: impl FnMut(&dyn Outing, Point),
-) -> Result<Pursued, Failure> {
-    let overwrite = looks.overwrite()?;
+) -> Result<Pursued> {
+    looks.check()?;
     let stop = interrupt::flag()?;
-    let mut live = match looks.live {
-        true => Some(Watched::open(outing, word, setup.seed, setup.steps)?),
-        false => None,
-    };
+    let scene = || Scene::of_outing(outing, word, setup.seed, setup.steps);
+    let mut live = Live::open(looks.live, scene)?;
     let mut doing = Doing::new(looks.live);
     let filmed = looks.live || looks.replay.is_some();
     let mut film = filmed.then(|| Film::new(outing));
@@ -67,51 +69,44 @@ pub(super) fn send(
             broken_off = Some(failure);
             return Ok(Standing::gave_up("it is another run"));
         }
-        if let (Some(live), Some(film)) = (&mut live, &film) {
-            match keeper.again() {
-                // The repeated actions were shown in the former run.
-                Some(_) => live.skip(outing),
-                None => live.see(outing, film),
-            }
+        match (keeper.again(), &film) {
+            (None, Some(film)) => live.follow(outing, film),
+            // The repeated actions were shown in the former run.
+            _ => live.skip(outing),
         }
         doing.show(|| doing_words(word, done, keeper.again(), outing));
         if standing == Standing::UnderWay && stop.load(Ordering::Relaxed) {
-            let saved = keeper.save(&|| state(outing));
-            broken_off = Some(match saved {
-                Ok(()) => Failure::Interrupted(anyhow!(keeper.told())),
-                Err(failure) => failure,
-            });
+            broken_off = Some(keeper.interrupted(|| state(outing)));
             return Ok(Standing::gave_up("interrupted"));
         }
         Ok::<_, BoxError>(standing)
     });
     doing.clear();
     let ended = ended
-        .map_err(anyhow::Error::from_boxed)
+        .unboxed()
         .with_context(|| format!("{word} broke off after {} steps", outing.steps()))?;
     let told = told(&ended, outing, word);
-    if let Some(live) = live {
-        live.close(&told)?;
-    }
+    live.close(&told)?;
     match broken_off {
         Some(failure) => return Err(failure),
         None => keeper.finish()?,
     }
-    if let Some(path) = &looks.trace {
-        let lines = outing.trace().map_err(anyhow::Error::from_boxed)?;
-        file::write(path, lines)?;
-    }
-    if let Some(path) = &looks.svg {
-        file::write(path, picture::of(outing.course(), outing.path(), &told))?;
-    }
-    if let (Some(path), Some(film)) = (&looks.replay, film) {
-        let title = format!("{word} in {}", setup.world);
-        let replay = film.replay(outing, title);
-        let replay = replay.fact("seed", setup.seed.to_string());
-        let replay = replay.fact("outcome", told.clone());
-        replay_file::write(path, replay, overwrite)?;
-    }
-    Ok(Pursued { ended, told })
+    looks.write(
+        || outing.trace().unboxed(),
+        || picture::of(outing.course(), outing.path(), &told),
+        || {
+            let film = film.unwrap_or_else(|| Film::new(outing));
+            film.replay(outing, format!("{word} in {}", setup.world))
+                .fact("seed", setup.seed.to_string())
+                .fact("outcome", told.clone())
+        },
+    )?;
+    let has_arrived = ended.end == TaskEnd::Done && outing.landmark() == Some(Landmark::Goal);
+    Ok(Pursued {
+        ended,
+        told,
+        has_arrived,
+    })
 }
 
 /// Returns the state of a run so far as a text, without the robot's way.
@@ -147,19 +142,11 @@ fn told(ended: &Ended, outing: &dyn Outing, word: &str) -> String {
     )
 }
 
-/// Writes the path of the replay, if there is one.
-pub(super) fn tell_replay(looks: &Looks, out: &mut dyn Write) -> Result<(), Failure> {
-    if let Some(path) = &looks.replay {
-        writeln!(out, "replay: {}", replay_file::address(path))?;
-    }
-    Ok(())
-}
-
 /// Refuses a map that was learned in another world or on another robot.
 ///
 /// # Errors
 /// Bad input that says what differs.
-pub(super) fn check_origin(map: &MapText, outing: &dyn Outing) -> Result<(), Failure> {
+pub(super) fn check_origin(map: &MapText, outing: &dyn Outing) -> Result {
     let (course, robot) = (outing.course(), outing.robot().name);
     let origin = &map.origin;
     let world = match &origin.drawing {
@@ -190,4 +177,12 @@ pub(super) fn check_origin(map: &MapText, outing: &dyn Outing) -> Result<(), Fai
         return Ok(());
     };
     Err(Failure::BadInput(error))
+}
+
+/// Returns the length of a path, m.
+pub(super) fn metres(path: &[Pose]) -> f64 {
+    let pairs = path.windows(2);
+    pairs
+        .map(|pair| (pair[1].position - pair[0].position).norm())
+        .sum()
 }

@@ -4,7 +4,7 @@ use tolman_arena::course::Terrain;
 
 use super::ground::{Ground, required};
 use super::unfinished::Call;
-use super::{App, Failure};
+use super::{App, Failure, Result};
 use tolman_arena::contest::Condition;
 use tolman_arena::registry::{RobotEntry, Schooling, Settings, Setup, Start, SystemEntry};
 
@@ -41,7 +41,7 @@ impl SentOut {
     ///
     /// # Errors
     /// Bad input if neither is given, or it cannot be read.
-    pub(super) fn terrain(&self) -> Result<(String, Terrain), Failure> {
+    pub(super) fn terrain(&self) -> Result<(String, Terrain)> {
         self.ground.read()
     }
 
@@ -49,7 +49,7 @@ impl SentOut {
     ///
     /// # Errors
     /// Bad input if a preset is given.
-    pub(super) fn refuse_preset(&self) -> Result<(), Failure> {
+    pub(super) fn refuse_preset(&self) -> Result {
         match &self.preset {
             Some(preset) => Err(Failure::BadInput(anyhow!(
                 "--preset {preset}: a map keeps the settings it was learned with; leave --preset out, or change single ones with --set"
@@ -82,35 +82,50 @@ impl SentOut {
     /// Bad input if there is no such robot, or it cannot carry the system.
     pub(super) fn robot(
         &self,
-        app: &App<'_>,
+        app: &App,
         system: &dyn SystemEntry,
         usual: &str,
-    ) -> Result<RobotEntry, Failure> {
+    ) -> Result<RobotEntry> {
         app.robot_for(system, self.robot.as_deref().unwrap_or(usual))
     }
 
     /// Returns the setup with which a system is sent out on a robot.
     pub(super) fn setup<'a>(
         &'a self,
-        (world, terrain): &'a (String, Terrain),
+        world: &'a (String, Terrain),
         robot: RobotEntry,
         schooling: &'a Schooling,
     ) -> Setup<'a> {
         Setup {
-            world,
-            terrain,
-            seed: self.seed,
             start: self.start,
             steps: self.steps,
-            robot,
-            from: None,
             settings: Settings {
                 preset: self.preset.as_deref(),
                 set: &self.set,
             },
-            condition: Condition::AsMade,
-            schooling,
+            ..setup_of(world, robot, schooling, self.seed)
         }
+    }
+}
+
+/// Returns a setup without start, limit, map and settings.
+pub(super) fn setup_of<'a>(
+    (world, terrain): &'a (String, Terrain),
+    robot: RobotEntry,
+    schooling: &'a Schooling,
+    seed: u64,
+) -> Setup<'a> {
+    Setup {
+        world,
+        terrain,
+        seed,
+        start: None,
+        steps: None,
+        robot,
+        from: None,
+        settings: Settings::default(),
+        condition: Condition::AsMade,
+        schooling,
     }
 }
 

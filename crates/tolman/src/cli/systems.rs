@@ -5,7 +5,7 @@ use std::io::Write;
 use serde_json::{Value, json};
 use tolman_arena::registry::{RobotEntry, SystemEntry};
 
-use super::{App, Failure};
+use super::{App, Result};
 
 /// Lists the systems, with their presets and their robots
 #[derive(clap::Args)]
@@ -22,11 +22,7 @@ pub(super) struct Arguments {
     json: bool,
 }
 
-pub(super) fn carry_out(
-    app: &App<'_>,
-    arguments: &Arguments,
-    out: &mut dyn Write,
-) -> Result<(), Failure> {
+pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -> Result {
     let registry = app.registry();
     if arguments.json {
         let systems = registry.systems.iter().map(|system| json_of(app, *system));
@@ -72,7 +68,7 @@ fn uses(system: &dyn SystemEntry) -> Vec<&'static str> {
     is.map(|(_, word)| word).collect()
 }
 
-fn json_of(app: &App<'_>, system: &dyn SystemEntry) -> Value {
+fn json_of(app: &App, system: &dyn SystemEntry) -> Value {
     let presets = system.presets().iter();
     let presets = presets.map(|(name, about)| json!({ "name": name, "about": about }));
     let robots = app.registry().robots_of(system);

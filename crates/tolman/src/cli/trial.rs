@@ -2,10 +2,10 @@
 
 use std::io::Write;
 
-use tolman_experiment::{Chunk, Terminal, open, play_chunk};
+use tolman_experiment::{Chunk, Terminal, play_chunk};
 
 use super::experiment::{Choice, classify};
-use super::{App, Failure, interrupt};
+use super::{App, Result, interrupt};
 
 /// Plays one share of an experiment's runs, so that several machines fill its tables
 #[derive(clap::Args)]
@@ -29,16 +29,17 @@ pub(super) struct Arguments {
     choice: Choice,
 }
 
-pub(super) fn carry_out(
-    app: &App<'_>,
-    arguments: &Arguments,
-    out: &mut dyn Write,
-) -> Result<(), Failure> {
+pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -> Result {
     let options = arguments.choice.options(app);
-    let experiments = &app.catalogue.experiments;
-    let experiment = open(experiments, &arguments.name, &options).map_err(classify)?;
+    let experiment = app.experiment(&arguments.name, &options)?;
     let progress = Terminal::new(interrupt::flag()?);
-    let folder = play_chunk(&experiment, &options, app.build, arguments.chunk, &progress);
+    let folder = play_chunk(
+        &experiment,
+        &options,
+        &app.build,
+        arguments.chunk,
+        &progress,
+    );
     let folder = folder.map_err(classify)?;
     Ok(writeln!(out, "The share: {}", folder.display())?)
 }

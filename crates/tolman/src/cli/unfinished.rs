@@ -17,11 +17,10 @@ use anyhow::{Context, Error, anyhow};
 use fnv::FnvHasher;
 use serde::{Deserialize, Serialize};
 use tolman_arena::BoxError;
-use tolman_formats::input;
 use tolman_geom::Pose;
 
 use super::kind::Kind;
-use super::{Failure, OrBadInput, called, file};
+use super::{Failure, OrBadInput, Result, Unboxed, called, file};
 
 /// Options to save and continue an interrupted run, for verbs that save nothing else.
 #[derive(clap::Args)]
@@ -40,7 +39,7 @@ impl GoingOn {
     ///
     /// # Errors
     /// Bad input if there is no run to continue.
-    pub(super) fn keeper(&self, call: Call) -> Result<Keeper, Failure> {
+    pub(super) fn keeper(&self, call: Call) -> Result<Keeper> {
         let verb = call.verb();
         let path = self.unfinished.clone();
         let path = path.unwrap_or_else(|| PathBuf::from(format!("{verb}.unfinished")));
@@ -103,7 +102,7 @@ const VERSION: u32 = 1;
 /// An interrupted run as a file.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(super) struct Unfinished {
+struct Unfinished {
     format: Format,
     version: u32,
     call: Call,
@@ -149,11 +148,6 @@ impl Unfinished {
             )),
         }
     }
-
-    /// Returns the map from which the run continued, or `None`.
-    pub(super) const fn map(&self) -> Option<&FormerMap> {
-        self.map.as_ref()
-    }
 }
 
 /// An interrupted run and the path of its file.
@@ -167,7 +161,7 @@ impl Former {
     ///
     /// # Errors
     /// Bad input that says what is wrong in it.
-    pub(super) fn of_text(path: &Path, text: &str) -> Result<Option<Self>, Failure> {
+    pub(super) fn of_text(path: &Path, text: &str) -> Result<Option<Self>> {
         if !Kind::Unfinished.is_of(text) {
             return Ok(None);
         }
@@ -178,19 +172,18 @@ impl Former {
         }))
     }
 
-    /// Returns the unfinished run.
-    pub(super) const fn run(&self) -> &Unfinished {
-        &self.run
+    /// Returns the map from which the run continued, or `None`.
+    pub(super) const fn map(&self) -> Option<&FormerMap> {
+        self.run.map.as_ref()
     }
 }
 
 /// Reads an interrupted run.
-fn read(path: &Path) -> Result<Former, Failure> {
-    let name = path.display().to_string();
-    let context = || format!("cannot read {name}; give a file of an interrupted run");
-    let text = input::text(path).with_context(context).or_bad_input()?;
+fn read(path: &Path) -> Result<Former> {
+    let text = file::read(path, "give a file of an interrupted run")?;
     let former = Former::of_text(path, &text)?;
     former.ok_or_else(|| {
+        let name = path.display().to_string();
         let error = anyhow!("it is not an interrupted run, which Ctrl-C leaves behind");
         Failure::BadInput(Kind::Unfinished.explain(&text, &name, error))
     })
@@ -237,7 +230,7 @@ impl Keeper {
     ///
     /// # Errors
     /// Bad input if `former` has another command line.
-    pub(super) fn new(path: PathBuf, call: Call, former: Option<Former>) -> Result<Self, Failure> {
+    pub(super) fn new(path: PathBuf, call: Call, former: Option<Former>) -> Result<Self> {
         if let Some(former) = &former
             && let Some(difference) = call.difference(&former.run.call)
         {
@@ -257,21 +250,6 @@ impl Keeper {
             done: Done::default(),
             next: Instant::now() + PERIOD,
         })
-    }
-
-    /// Returns a keeper that never saves.
-    pub(super) fn of_nothing(verb: &str) -> Self {
-        Self {
-            path: PathBuf::new(),
-            call: Call::new(verb),
-            saving: Saving::Never,
-            map: None,
-            written: Vec::new(),
-            former: None,
-            trail: Trail::default(),
-            done: Done::default(),
-            next: Instant::now() + PERIOD,
-        }
     }
 
     /// Sets when the run is saved.
@@ -301,7 +279,7 @@ impl Keeper {
         path: &[Pose],
         bumped: &[u32],
         state: impl Fn() -> State,
-    ) -> Result<(), Failure> {
+    ) -> Result {
         self.trail.follow(path, bumped);
         self.done = done;
         if let Some(former) = self.former.take_if(|former| former.run.done == done) {
@@ -325,7 +303,7 @@ impl Keeper {
     ///
     /// # Errors
     /// If the file cannot be written.
-    pub(super) fn save(&mut self, state: &impl Fn() -> State) -> Result<(), Failure> {
+    fn save(&mut self, state: &impl Fn() -> State) -> Result {
         if self.saving == Saving::Never {
             return Ok(());
         }
@@ -347,21 +325,25 @@ impl Keeper {
         Ok(())
     }
 
-    /// Returns the message about an interrupted run, with the command that continues it.
-    pub(super) fn told(&self) -> String {
+    /// Saves the run as it is now, and returns the failure that names the command which continues
+    /// it; or why it cannot be saved.
+    pub(super) fn interrupted(&mut self, state: impl Fn() -> State) -> Failure {
+        if let Err(failure) = self.save(&state) {
+            return failure;
+        }
         let Done { actions, steps } = self.again().unwrap_or(self.done);
         let told = format!("interrupted after {actions} actions, {steps} steps");
-        match self.saving {
-            Saving::Never => told,
-            _ => format!("{told}; go on with: {}", called::going_on(&self.path)),
-        }
+        Failure::Interrupted(match self.saving {
+            Saving::Never => anyhow!(told),
+            _ => anyhow!("{told}; go on with: {}", called::going_on(&self.path)),
+        })
     }
 
     /// Removes the files of a run that has ended.
     ///
     /// # Errors
     /// If it ended before the former run was repeated, so that it is another run.
-    pub(super) fn finish(self) -> Result<(), Failure> {
+    pub(super) fn finish(self) -> Result {
         if let Some(former) = &self.former {
             return Err(parted(former));
         }
@@ -372,9 +354,9 @@ impl Keeper {
         Ok(())
     }
 
-    fn checksum(&self, state: &impl Fn() -> State) -> Result<String, Failure> {
+    fn checksum(&self, state: &impl Fn() -> State) -> Result<String> {
         let mut trail = self.trail.clone();
-        let state = state().map_err(Error::from_boxed)?;
+        let state = state().unboxed()?;
         trail.hash(state.as_bytes());
         Ok(format!("{:016x}", trail.hash))
     }

@@ -7,7 +7,7 @@ use tolman_arena::contest::{Contest, ContestError, ContestRecord};
 use tolman_arena::registry::{RobotEntry, Schooling};
 use tolman_papers::arena::{ArenaWorld, DrawnWorld, PoolRound, RungJudgement, VerdictPool};
 
-use super::{Arguments, Contestant, Failure, MOST_WORLDS, carrier};
+use super::{Arguments, Contestant, MOST_WORLDS, Result, Unboxed, carrier, or_dash};
 
 /// Number of right maps, and of wrong maps, to collect for each system.
 const ENOUGH: u32 = 100;
@@ -23,15 +23,15 @@ pub(super) fn judge(
     robot: Option<RobotEntry>,
     kinds: &[ArenaWorld],
     out: &mut dyn Write,
-) -> Result<(), Failure> {
+) -> Result {
     writeln!(out, "{HEADING}")?;
     let most = arguments.worlds.unwrap_or(MOST_WORLDS);
     let schooling = Schooling::default();
     let learning = contestants.iter().filter(|one| one.learns());
     for contestant in learning {
         let mut pool = VerdictPool::new(kinds.to_vec(), arguments.seed, ENOUGH, most);
-        while let Some(round) = pool.round().map_err(anyhow::Error::from_boxed)? {
-            let held = held(*contestant, robot, &round, &schooling).map_err(anyhow::Error::from)?;
+        while let Some(round) = pool.round().unboxed()? {
+            let held = held(*contestant, robot, &round, &schooling)?;
             pool.take(&held);
         }
         row(*contestant, robot, &pool, out)?;
@@ -63,7 +63,7 @@ fn row(
 ) -> std::io::Result<()> {
     let judged = pool.judgement();
     let number = |value: Option<f64>, decimals: usize| {
-        value.map_or_else(|| "–".to_owned(), |value| format!("{value:.decimals$}"))
+        or_dash(value.map(|value| format!("{value:.decimals$}")))
     };
     writeln!(
         out,

@@ -107,7 +107,7 @@ impl CertificateFile {
         let names = Names(audited.file);
         let (mut refuted, mut supported) = (Vec::new(), Vec::new());
         for closure in &audited.audit.closures {
-            let edge = &audited.file.file.edges[closure.edge as usize];
+            let edge = audited.edge(closure);
             let (line, from, to, run) = (edge.line, edge.from, edge.to, closure.run);
             match &closure.verdict {
                 ClosureVerdict::Refuted { by, cycle } => refuted.push(RefutedLine {

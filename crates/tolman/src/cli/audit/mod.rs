@@ -4,19 +4,18 @@ mod certificates;
 mod page;
 mod told;
 
-use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use indicatif::ProgressBar;
-use tolman_formats::{G2o, input};
+use tolman_formats::{G2o, G2oEdge};
 use tolman_maps::audit::{
-    Audit, AuditConfig, ClosureVerdict, SigmaScale, audit, supported_graph, verify,
+    Audit, AuditConfig, AuditedClosure, ClosureVerdict, SigmaScale, audit, supported_graph, verify,
 };
 use tolman_papers::real::GraphFile;
 
-use super::{Failure, OrBadInput, file};
+use super::{Failure, OrBadInput, Result, file};
 use certificates::CertificateFile;
 
 /// Finds which loop closures of a pose graph are right, wrong or undecided; exits 1 if one is wrong
@@ -76,7 +75,7 @@ struct Audited<'a> {
     audit: Audit,
 }
 
-pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     let file = GraphFile::read(&arguments.graph).or_bad_input()?;
     told::left_out(&arguments.graph, &file.file);
     let folder = arguments.folder();
@@ -110,7 +109,7 @@ impl Arguments {
         })
     }
 
-    fn audited<'a>(&self, file: &'a GraphFile) -> Result<Audited<'a>, Failure> {
+    fn audited<'a>(&self, file: &'a GraphFile) -> Result<Audited<'a>> {
         let estimate = SigmaScale::estimate(&file.graph).or_bad_input()?;
         let scale = match self.sigma_scale {
             Scale::By(scale) => scale,
@@ -131,13 +130,8 @@ impl Arguments {
         })
     }
 
-    fn write(&self, audited: &Audited<'_>, folder: &Path) -> Result<(), Failure> {
-        fs::create_dir_all(folder).with_context(|| {
-            format!(
-                "cannot make {}: name another folder by --out",
-                folder.display()
-            )
-        })?;
+    fn write(&self, audited: &Audited<'_>, folder: &Path) -> Result {
+        file::make_folder(folder, "name another folder by --out")?;
         let certificates = CertificateFile::of(audited);
         let json = serde_json::to_string(&certificates)?;
         file::write(&folder.join(certificates::NAME), json + "\n")?;
@@ -152,6 +146,11 @@ impl Arguments {
 }
 
 impl Audited<'_> {
+    /// Returns a closure as its file has it.
+    fn edge(&self, closure: &AuditedClosure) -> &G2oEdge {
+        &self.file.file.edges[closure.edge as usize]
+    }
+
     /// Returns the graph without refuted closures; without undecided ones too if `strict`.
     fn cleaned(&self, strict: bool) -> G2o {
         let goes = |verdict: &ClosureVerdict| match strict {
@@ -170,19 +169,10 @@ impl Audited<'_> {
 }
 
 /// Measures the certificates in a folder again and reports which hold.
-fn check(
-    file: &GraphFile,
-    graph: &Path,
-    folder: &Path,
-    out: &mut dyn Write,
-) -> Result<(), Failure> {
+fn check(file: &GraphFile, graph: &Path, folder: &Path, out: &mut dyn Write) -> Result {
     let path = folder.join(certificates::NAME);
-    let text = input::text(&path)
-        .with_context(|| {
-            let path = path.display();
-            format!("cannot read {path}; audit without --verify first, or name the folder by --out")
-        })
-        .or_bad_input()?;
+    let repair = "audit without --verify first, or name the folder by --out";
+    let text = file::read(&path, repair)?;
     let certificates = CertificateFile::read(&text)
         .with_context(|| path.display().to_string())
         .or_bad_input()?;

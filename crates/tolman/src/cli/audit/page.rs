@@ -2,7 +2,7 @@
 
 use tolman_draw::{Figure, FloorPlan, Page, PageTable, Series};
 use tolman_geom::Point;
-use tolman_maps::audit::{AuditedClosure, ClosureVerdict, RefutedBy};
+use tolman_maps::audit::{AuditedClosure, ClosureVerdict};
 use tolman_maps::pose_graph::PoseGraph;
 use tolman_sim::Bounds;
 
@@ -22,11 +22,10 @@ const REFUTED: Series = Series(4);
 
 pub(super) fn html(audited: &Audited<'_>, laid_out: &PoseGraph) -> String {
     let count = |is: fn(&ClosureVerdict) -> bool| audited.audit.count(is).to_string();
-    let undecided = |verdict: &ClosureVerdict| matches!(verdict, ClosureVerdict::Undecided(_));
     let mut page = Page::new(format!("Audit of {}", audited.name))
         .fact("supported", count(ClosureVerdict::is_supported))
         .fact("refuted", count(ClosureVerdict::is_refuted))
-        .fact("undecided", audited.audit.count(undecided).to_string())
+        .fact("undecided", count(told::is_undecided))
         .fact("poses", laid_out.poses().len().to_string())
         .fact("runs of closures", audited.audit.runs.to_string())
         .fact(
@@ -39,7 +38,7 @@ pub(super) fn html(audited: &Audited<'_>, laid_out: &PoseGraph) -> String {
     }
     page.figure(&picture(audited, laid_out))
         .table(&refuted(audited))
-        .table(&listed(audited, "Undecided", undecided))
+        .table(&listed(audited, "Undecided", told::is_undecided))
         .table(&listed(audited, "Supported", ClosureVerdict::is_supported))
         .text(
             "Support is evidence, never proof: the cycles agree with the closure, and share no run of closures. Refuted by odometry alone holds if the odometry's \
@@ -55,7 +54,6 @@ pub(super) fn html(audited: &Audited<'_>, laid_out: &PoseGraph) -> String {
 fn picture(audited: &Audited<'_>, laid_out: &PoseGraph) -> Figure {
     let places: Vec<Point> = laid_out.poses().iter().map(|pose| pose.position).collect();
     let mut plan = FloorPlan::of_bounds(&Bounds::of(places.iter().copied()), WIDTH);
-    let undecided = |verdict: &ClosureVerdict| matches!(verdict, ClosureVerdict::Undecided(_));
     let lines = |is: &dyn Fn(&ClosureVerdict) -> bool| -> Vec<[Point; 2]> {
         let closures = audited.audit.closures.iter();
         let chosen = closures.filter(|closure| is(&closure.verdict));
@@ -68,7 +66,7 @@ fn picture(audited: &Audited<'_>, laid_out: &PoseGraph) -> Figure {
     plan.segments(&lines(&ClosureVerdict::is_refuted), true, REFUTED);
     let way: Vec<[Point; 2]> = places.windows(2).map(|pair| [pair[0], pair[1]]).collect();
     plan.segments(&way, false, ODOMETRY);
-    plan.segments(&lines(&undecided), false, UNDECIDED);
+    plan.segments(&lines(&told::is_undecided), false, UNDECIDED);
     plan.segments(&lines(&ClosureVerdict::is_supported), false, SUPPORTED);
     Figure::new("graph", "The graph by what is supported.", plan.drawing(audited.counted())).caption(
         "Blue the way by odometry and supported closures, green supported closures (short where the poses meet), yellow undecided ones, orange dashes refuted ones.",
@@ -87,29 +85,18 @@ fn refuted(audited: &Audited<'_>) -> PageTable {
         .collect();
     all.sort_by(|a, b| b.2.chi2.total_cmp(&a.2.chi2));
     for (closure, by, cycle) in all.iter().take(LISTED) {
-        let [x, y, turn] = cycle.residual;
-        let by = match by {
-            RefutedBy::Odometry => "odometry alone",
-            RefutedBy::SupportedClosures => "supported closures",
-        };
+        let (metres, degrees) = told::residual(cycle);
         let steps = cycle.steps.iter().skip(1).map(|step| {
             let id = audited.file.file.poses[step.to as usize].id;
-            if step.over.is_some() {
-                format!("⇒ {id}")
-            } else {
-                format!("→ {id}")
-            }
+            let arrow = if step.over.is_some() { "⇒" } else { "→" };
+            format!("{arrow} {id}")
         });
         let cycle_told = steps.collect::<Vec<_>>().join(" ");
         table = table.row([
-            line(audited, closure),
+            audited.edge(closure).line.to_string(),
             ends(audited, closure),
-            by.to_owned(),
-            format!(
-                "{:.2} m, {:.1}°",
-                (x * x + y * y).sqrt(),
-                turn.to_degrees().abs()
-            ),
+            told::evidence(**by).to_owned(),
+            format!("{metres:.2} m, {degrees:.1}°"),
             format!("{:.0}", cycle.chi2),
             format!("{} {cycle_told}", ends(audited, closure)),
         ]);
@@ -126,7 +113,7 @@ fn listed(audited: &Audited<'_>, title: &str, is: impl Fn(&ClosureVerdict) -> bo
     let all: Vec<&AuditedClosure> = all.filter(|closure| is(&closure.verdict)).collect();
     for closure in all.iter().take(LISTED) {
         table = table.row([
-            line(audited, closure),
+            audited.edge(closure).line.to_string(),
             ends(audited, closure),
             closure.run.to_string(),
             told::verdict(&closure.verdict),
@@ -144,13 +131,7 @@ fn of(all: usize, which: &str) -> String {
     }
 }
 
-fn line(audited: &Audited<'_>, closure: &AuditedClosure) -> String {
-    audited.file.file.edges[closure.edge as usize]
-        .line
-        .to_string()
-}
-
 fn ends(audited: &Audited<'_>, closure: &AuditedClosure) -> String {
-    let edge = &audited.file.file.edges[closure.edge as usize];
+    let edge = audited.edge(closure);
     format!("{} ⇒ {}", edge.from, edge.to)
 }

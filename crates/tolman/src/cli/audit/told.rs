@@ -76,7 +76,7 @@ impl Audited<'_> {
             "{} supported; {} refuted ({alone} by odometry alone); {} undecided ({} too wide, {} of a single run, {} contradictory)",
             count(ClosureVerdict::is_supported),
             count(ClosureVerdict::is_refuted),
-            count(|verdict| matches!(verdict, ClosureVerdict::Undecided(_))),
+            count(is_undecided),
             reason(|because| matches!(because, UndecidedBecause::Wide { .. })),
             reason(|because| matches!(because, UndecidedBecause::SingleRun { .. })),
             reason(|because| matches!(because, UndecidedBecause::Contradictory { .. })),
@@ -105,10 +105,15 @@ impl Audited<'_> {
 
     /// Returns a line with a closure and its verdict.
     pub(super) fn told(&self, closure: &AuditedClosure) -> String {
-        let edge = &self.file.file.edges[closure.edge as usize];
+        let edge = self.edge(closure);
         let verdict = verdict(&closure.verdict);
         format!("line {}: {} → {} {verdict}", edge.line, edge.from, edge.to)
     }
+}
+
+/// Returns whether a closure is neither supported nor refuted.
+pub(super) const fn is_undecided(verdict: &ClosureVerdict) -> bool {
+    matches!(verdict, ClosureVerdict::Undecided(_))
 }
 
 /// Returns a verdict with its reason.
@@ -119,14 +124,24 @@ pub(super) fn verdict(verdict: &ClosureVerdict) -> String {
             count => format!("supported by {count} cycles"),
         },
         ClosureVerdict::Refuted { by, cycle } => {
-            let by = match by {
-                RefutedBy::Odometry => "odometry alone",
-                RefutedBy::SupportedClosures => "supported closures",
-            };
-            format!("refuted by {by}: {}", off(cycle))
+            format!("refuted by {}: {}", evidence(*by), off(cycle))
         }
         ClosureVerdict::Undecided(because) => format!("undecided: {}", reason(because)),
     }
+}
+
+/// Returns in words what refutes a closure.
+pub(super) const fn evidence(by: RefutedBy) -> &'static str {
+    match by {
+        RefutedBy::Odometry => "odometry alone",
+        RefutedBy::SupportedClosures => "supported closures",
+    }
+}
+
+/// Returns by how much a cycle is off: m and degrees.
+pub(super) fn residual(cycle: &AuditCycle) -> (f64, f64) {
+    let [x, y, turn] = cycle.residual;
+    ((x * x + y * y).sqrt(), turn.to_degrees().abs())
 }
 
 fn reason(because: &UndecidedBecause) -> String {
@@ -151,12 +166,10 @@ fn reason(because: &UndecidedBecause) -> String {
 }
 
 /// Returns the residual of a cycle in words.
-pub(super) fn off(cycle: &AuditCycle) -> String {
-    let [x, y, turn] = cycle.residual;
-    let metres = (x * x + y * y).sqrt();
+fn off(cycle: &AuditCycle) -> String {
+    let (metres, degrees) = residual(cycle);
     format!(
-        "its cycle is off by {metres:.2} m and {:.1}°, χ² {:.0} of at most 25",
-        turn.to_degrees().abs(),
+        "its cycle is off by {metres:.2} m and {degrees:.1}°, χ² {:.0} of at most 25",
         cycle.chi2
     )
 }
@@ -171,15 +184,16 @@ pub(super) fn rounded(number: f64) -> String {
 pub(super) fn csv(audited: &Audited<'_>) -> String {
     let mut text = "line,from,to,run,verdict,witnesses,reason\n".to_owned();
     for closure in &audited.audit.closures {
-        let edge = &audited.file.file.edges[closure.edge as usize];
+        let edge = audited.edge(closure);
         let (word, witnesses, why) = match &closure.verdict {
             ClosureVerdict::Supported { witnesses } => {
                 ("supported", witnesses.len(), String::new())
             }
-            ClosureVerdict::Refuted { by, .. } => match by {
-                RefutedBy::Odometry => ("refuted", 0, "odometry".to_owned()),
-                RefutedBy::SupportedClosures => ("refuted", 0, "supported closures".to_owned()),
-            },
+            ClosureVerdict::Refuted {
+                by: RefutedBy::Odometry,
+                ..
+            } => ("refuted", 0, "odometry".to_owned()),
+            ClosureVerdict::Refuted { by, .. } => ("refuted", 0, evidence(*by).to_owned()),
             ClosureVerdict::Undecided(because) => ("undecided", 0, reason(because)),
         };
         // Writing to a string cannot fail.

@@ -9,12 +9,11 @@ use std::time::Instant;
 
 use indicatif::ProgressBar;
 use tolman_experiment::{
-    Entry, Options, Progress, ProgressEvent, Tour, execute, open, tables_as_text, tour_html,
-    wrapped,
+    Entry, Options, Progress, ProgressEvent, Tour, execute, tables_as_text, tour_html, wrapped,
 };
 
 use super::{classify, heading};
-use crate::cli::{App, Failure, bar, file, ink, interrupt};
+use crate::cli::{App, Result, bar, file, ink, interrupt};
 
 /// Maximum width of the tour's lines, columns.
 const WIDTH: usize = 80;
@@ -22,11 +21,7 @@ const WIDTH: usize = 80;
 /// Number of steps that the bar has for each experiment.
 const STEPS: u32 = 1000;
 
-pub(super) fn carry_out(
-    app: &App<'_>,
-    options: &Options,
-    out: &mut dyn Write,
-) -> Result<(), Failure> {
+pub(super) fn carry_out(app: &App, options: &Options, out: &mut dyn Write) -> Result {
     let stop = interrupt::flag()?;
     let entries = &app.catalogue.experiments;
     let stops: Vec<(&Entry, Tour)> = entries
@@ -40,13 +35,13 @@ pub(super) fn carry_out(
     let (started, mut whole) = (Instant::now(), Duration::ZERO);
     for (number, (entry, tour)) in (1..).zip(&stops) {
         let options = options.on_tour(tour, &folder.join(entry.name));
-        let experiment = open(entries, entry.name, &options).map_err(classify)?;
+        let experiment = app.experiment(entry.name, &options)?;
         shown.begin(number - 1, entry.name);
         let began = Instant::now();
-        let outcome = execute(&experiment, &options, app.build, &shown).map_err(classify)?;
+        let outcome = execute(&experiment, &options, &app.build, &shown).map_err(classify)?;
         let head = heading(number, stops.len(), entry.title);
         let tables = tables_as_text(&outcome.analysis, ink());
-        shown.bar.suspend(|| -> Result<(), Failure> {
+        shown.bar.suspend(|| -> Result {
             for line in wrapped(&head, WIDTH) {
                 writeln!(out, "{line}")?;
             }
@@ -87,14 +82,9 @@ pub(super) fn carry_out(
 ///
 /// # Errors
 /// If the experiment cannot be prepared.
-fn whole_of(
-    entry: &Entry,
-    app: &App<'_>,
-    runs: usize,
-    took: Duration,
-) -> Result<Duration, Failure> {
+fn whole_of(entry: &Entry, app: &App, runs: usize, took: Duration) -> Result<Duration> {
     let options = Options::default();
-    let whole = open(&app.catalogue.experiments, entry.name, &options).map_err(classify)?;
+    let whole = app.experiment(entry.name, &options)?;
     let rows = whole.tables.iter().flat_map(|table| &table.rows);
     let all: u64 = rows.map(|row| u64::from(row.runs_of(entry.runs))).sum();
     Ok(took.mul_f64(all as f64 / runs.max(1) as f64))

@@ -6,14 +6,14 @@ use std::io::{self, IsTerminal, Write};
 use tolman_film::Glimpse;
 
 use super::{Now, Scene};
-use crate::cli::Failure;
+use crate::cli::Result;
 
 /// Stands in for the screen. It has no values.
 #[derive(Debug)]
 pub(in crate::cli) enum Screen {}
 
 /// Prints how to build a `tolman` that draws, and returns no screen.
-pub(super) fn screen(_: Scene) -> Result<Option<Screen>, Failure> {
+pub(super) fn screen(_: Scene) -> Result<Option<Screen>> {
     if io::stdout().is_terminal() {
         let told = "note: this build draws no picture; one with `--features live` does";
         writeln!(io::stderr(), "{told}")?;

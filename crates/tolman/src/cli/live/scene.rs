@@ -1,5 +1,6 @@
 //! Data that a run passes to its viewer.
 
+use tolman_arena::Outing;
 use tolman_arena::course::Course;
 use tolman_arena::episode::{Step, Trial};
 use tolman_control::Outcome;
@@ -36,6 +37,24 @@ impl Scene {
             step_us: trial.robot.step_us,
             radius: trial.robot.radius,
             step_limit: Some(trial.step_limit),
+        }
+    }
+
+    /// Returns the scene of an outing, which is driven by the system called `word`.
+    pub(in crate::cli) fn of_outing(
+        outing: &dyn Outing,
+        word: &str,
+        seed: u64,
+        step_limit: Option<u32>,
+    ) -> Self {
+        Self {
+            course: outing.course().clone(),
+            word: word.to_owned(),
+            seed,
+            start: outing.path()[0],
+            step_us: outing.robot().step_us,
+            radius: outing.robot().body.radius(),
+            step_limit,
         }
     }
 }

@@ -9,13 +9,13 @@ mod window;
 mod wish;
 
 use super::Scene;
-use crate::cli::{Failure, ink, interrupt};
+use crate::cli::{Result, ink, interrupt};
 pub(super) use screen::Screen;
 use view::{View, fits_the_terminal};
 
 /// Returns a screen that shows a run before its first step, or `None` if there is no terminal to
 /// draw on.
-pub(super) fn screen(scene: Scene) -> Result<Option<Screen>, Failure> {
+pub(super) fn screen(scene: Scene) -> Result<Option<Screen>> {
     if !fits_the_terminal() {
         return Ok(None);
     }

@@ -1,11 +1,10 @@
 //! `tolman map --log`: estimates the trajectory of a robot from its log.
 
 use alloc::collections::BTreeSet;
-use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use tolman_arena::registry::SystemEntry;
 use tolman_draw::{Figure, Page, PageTable};
 use tolman_formats::{dot, graphml, input, node_link_json, route_geojson, tum};
@@ -15,7 +14,8 @@ use tolman_robot::MapLink;
 use crate::cli::bar::bar;
 use crate::cli::kind::Kind;
 use crate::cli::replay_file::{self, Overwrite};
-use crate::cli::{App, Failure, OrBadInput, called, file};
+use crate::cli::send::metres;
+use crate::cli::{App, Failure, OrBadInput, Result, Unboxed, called, file};
 
 pub(super) const EXAMPLES: &str = "\
 The folder gets:
@@ -51,11 +51,7 @@ pub(super) struct Arguments {
     out: Option<PathBuf>,
 }
 
-pub(super) fn carry_out(
-    app: &App<'_>,
-    arguments: &Arguments,
-    out: &mut dyn Write,
-) -> Result<(), Failure> {
+pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -> Result {
     let Arguments {
         log: Some(path),
         out: Some(folder),
@@ -66,7 +62,8 @@ pub(super) fn carry_out(
     };
     let mapper = mapper(app, system)?;
     let log = RobotLog::read(path)
-        .map_err(|error| explain(path, anyhow::Error::from_boxed(error)))
+        .unboxed()
+        .map_err(|error| explain(path, error))
         .or_bad_input()?;
     for sentence in log.report.sentences() {
         writeln!(out, "{sentence}")?;
@@ -140,7 +137,7 @@ fn explain(path: &Path, error: anyhow::Error) -> anyhow::Error {
 }
 
 /// Returns how the system called `name` maps a log.
-fn mapper(app: &App<'_>, name: &str) -> Result<LogMapper, Failure> {
+fn mapper(app: &App, name: &str) -> Result<LogMapper> {
     let maps_logs = |system: &dyn SystemEntry| system.log_mapper().is_some();
     let system = app
         .system(name, |_| true)
@@ -158,14 +155,14 @@ fn mapper(app: &App<'_>, name: &str) -> Result<LogMapper, Failure> {
 }
 
 /// Returns the trajectory estimated from the log. Shows a progress bar on the terminal.
-fn found(log: &RobotLog, mapper: LogMapper) -> Result<MappedLog, Failure> {
+fn found(log: &RobotLog, mapper: LogMapper) -> Result<MappedLog> {
     let template = "{bar:30} scan {pos} of {len}, {eta} to go";
     let progress = bar(u32::try_from(log.scans.len()).unwrap_or(u32::MAX), template);
     let found = log.map(mapper, &log.odometry(), |scans| {
         progress.set_position(scans as u64);
     });
     progress.finish_and_clear();
-    found.map_err(anyhow::Error::from_boxed).or_bad_input()
+    found.unboxed().or_bad_input()
 }
 
 /// Results to write.
@@ -179,11 +176,8 @@ struct Mapped<'a> {
 }
 
 impl Mapped<'_> {
-    fn write_all(&self, folder: &Path) -> Result<(), Failure> {
-        fs::create_dir_all(folder).with_context(|| {
-            let folder = folder.display();
-            format!("cannot make {folder}: give a folder in one that can be written to")
-        })?;
+    fn write_all(&self, folder: &Path) -> Result {
+        file::make_folder(folder, "give a folder in one that can be written to")?;
         let Self { log, found, .. } = self;
         let write = |name: &str, contents: &[u8]| file::write(&folder.join(name), contents);
         let noted: Vec<_> = log.scans.iter().map(|scan| scan.noted).collect();
@@ -222,9 +216,7 @@ impl Mapped<'_> {
             None => "Nothing that the laser read speaks against the map.".to_owned(),
             Some(doubt) => format!("The map is doubtful: {doubt}."),
         };
-        let way: f64 = (found.poses.windows(2))
-            .map(|pair| (pair[1].position - pair[0].position).norm())
-            .sum();
+        let way = metres(&found.poses);
         let mut page = Page::new(format!("The map of {}", self.name()))
             .fact("scans", log.scans.len().to_string())
             .fact("way", format!("{way:.0} m"))

@@ -2,18 +2,16 @@
 
 mod log;
 
-use core::convert::Infallible;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, anyhow};
+use anyhow::anyhow;
 use clap::Subcommand;
 use tolman_draw::Figure;
-use tolman_formats::input;
 
 use crate::cli::ground::{Ground, required};
 use crate::cli::kind::Kind;
-use crate::cli::{App, Failure, OrBadInput, file, of_registry};
+use crate::cli::{App, Failure, OrBadInput, Result, Unboxed, file};
 use tolman_arena::registry::{LearnedMap, MapText};
 
 /// Makes a map from a robot's log of laser scans; with a subcommand, shows, checks or plans on a
@@ -33,11 +31,7 @@ pub(in crate::cli) struct Arguments {
 }
 
 impl Arguments {
-    pub(in crate::cli) fn carry_out(
-        self,
-        app: &App<'_>,
-        out: &mut dyn Write,
-    ) -> Result<(), Failure> {
+    pub(in crate::cli) fn carry_out(self, app: &App, out: &mut dyn Write) -> Result {
         match self.verb {
             Some(verb) => verb.carry_out(app, out),
             None => log::carry_out(app, &self.log, out),
@@ -106,7 +100,7 @@ pub(in crate::cli) struct Check {
 }
 
 impl Verb {
-    fn carry_out(self, app: &App<'_>, out: &mut dyn Write) -> Result<(), Failure> {
+    fn carry_out(self, app: &App, out: &mut dyn Write) -> Result {
         match self {
             Self::Show(arguments) => show(app, &arguments, out),
             Self::Plan(arguments) => plan(app, &arguments, out),
@@ -115,12 +109,11 @@ impl Verb {
     }
 }
 
-fn show(app: &App<'_>, arguments: &Show, out: &mut dyn Write) -> Result<(), Failure> {
+fn show(app: &App, arguments: &Show, out: &mut dyn Write) -> Result {
     let (text, map) = read(app, &arguments.file)?;
     if let Some(path) = &arguments.svg {
         let (world, terrain) = arguments.ground.read()?;
-        let drawing = map.drawing(&terrain);
-        let drawing = drawing.map_err(of_registry);
+        let drawing = map.drawing(&terrain).unboxed();
         let drawing = drawing.map_err(|error| match world == text.origin.world {
             true => error,
             false => error.context(format!(
@@ -141,10 +134,10 @@ fn show(app: &App<'_>, arguments: &Show, out: &mut dyn Write) -> Result<(), Fail
     Ok(())
 }
 
-fn plan(app: &App<'_>, arguments: &Plan, out: &mut dyn Write) -> Result<(), Failure> {
+fn plan(app: &App, arguments: &Plan, out: &mut dyn Write) -> Result {
     let (_, map) = read(app, &arguments.file)?;
     let plan = map.plan(arguments.from, arguments.to);
-    let plan = plan.map_err(of_registry).or_bad_input()?;
+    let plan = plan.unboxed().or_bad_input()?;
     let Some(lines) = plan else {
         return Err(Failure::Failed(anyhow!(
             "no way is known on the map in {}; learn longer",
@@ -160,12 +153,12 @@ fn plan(app: &App<'_>, arguments: &Plan, out: &mut dyn Write) -> Result<(), Fail
     Ok(())
 }
 
-fn check(app: &App<'_>, arguments: &Check, out: &mut dyn Write) -> Result<(), Failure> {
+fn check(app: &App, arguments: &Check, out: &mut dyn Write) -> Result {
     let text = map_text(&arguments.file)?;
     let system = app.system_of(&text)?;
     let (_, terrain) = arguments.ground.read()?;
     let complaint = text.complaint(system, &terrain);
-    match complaint.map_err(of_registry).or_bad_input()? {
+    match complaint.unboxed().or_bad_input()? {
         None => Ok(writeln!(out, "{} is right", text.name)?),
         Some(complaint) => Err(Failure::Failed(anyhow!(
             "the map in {} is wrong or unfinished: {complaint}",
@@ -174,10 +167,10 @@ fn check(app: &App<'_>, arguments: &Check, out: &mut dyn Write) -> Result<(), Fa
     }
 }
 
-fn read(app: &App<'_>, path: &Path) -> Result<(MapText, Box<dyn LearnedMap>), Failure> {
+fn read(app: &App, path: &Path) -> Result<(MapText, Box<dyn LearnedMap>)> {
     let text = map_text(path)?;
     let map = app.system_of(&text)?.map(&text);
-    let map = map.map_err(of_registry).or_bad_input()?;
+    let map = map.unboxed().or_bad_input()?;
     Ok((text, map))
 }
 
@@ -185,43 +178,23 @@ fn read(app: &App<'_>, path: &Path) -> Result<(MapText, Box<dyn LearnedMap>), Fa
 ///
 /// # Errors
 /// Bad input with the file's name.
-pub(in crate::cli) fn map_text(path: &Path) -> Result<MapText, Failure> {
-    match map_text_or(path, |_| Ok(None::<Infallible>))? {
-        MapOr::Map(map) => Ok(*map),
-    }
+pub(in crate::cli) fn map_text(path: &Path) -> Result<MapText> {
+    of_text(path, &text(path)?)
 }
 
-/// A learned map's file, or another file that the caller accepts instead.
-pub(in crate::cli) enum MapOr<T> {
-    Map(Box<MapText>),
-    Other(T),
-}
-
-/// Returns the text of a learned map's file, or the result of `other` for another kind of text.
+/// Returns the text of a file that should hold a learned map.
 ///
 /// # Errors
-/// Bad input with the file's name, or the error of `other`.
-pub(in crate::cli) fn map_text_or<T>(
-    path: &Path,
-    other: impl FnOnce(&str) -> Result<Option<T>, Failure>,
-) -> Result<MapOr<T>, Failure> {
-    let text = input::text(path)
-        .with_context(|| {
-            let path = path.display();
-            format!("cannot read {path}; give a file that `tolman learn` wrote")
-        })
-        .or_bad_input()?;
-    Ok(match other(&text)? {
-        Some(other) => MapOr::Other(other),
-        None => MapOr::Map(Box::new(of_text(path, &text)?)),
-    })
+/// Bad input with the file's name.
+pub(in crate::cli) fn text(path: &Path) -> Result<String> {
+    file::read(path, "give a file that `tolman learn` wrote")
 }
 
 /// Returns `text` as that of a learned map's file.
 ///
 /// # Errors
 /// Bad input with the file's name.
-pub(in crate::cli) fn of_text(path: &Path, text: &str) -> Result<MapText, Failure> {
+pub(in crate::cli) fn of_text(path: &Path, text: &str) -> Result<MapText> {
     let name = path.display().to_string();
     MapText::read(name.clone(), text.to_owned())
         .map_err(|error| Kind::Map.explain(text, &name, error))

@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use super::collection::Unsound;
-use super::{Failure, input, summary::Summary};
+use super::{Result, input, summary::Summary};
 
 /// Reads mazes and checks that a way leads to the goal; exits 2 if one is invalid
 #[derive(clap::Args)]
@@ -20,7 +20,7 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     let mut unsound = Unsound::default();
     let mut sound = 0;
     for file in &arguments.files {

@@ -8,7 +8,8 @@ use rayon::prelude::*;
 use tolman_maze::{Maze, MazeFile};
 
 use super::input;
-use crate::cli::{Failure, failure::note};
+use crate::cli::looks::Looks;
+use crate::cli::{Failure, Result, failure::note};
 
 /// The valid mazes of a file or a folder, by name, and the failures of the others.
 pub(in crate::cli) struct Collection {
@@ -21,8 +22,8 @@ impl Collection {
     /// line on stderr; name the file to use one.
     ///
     /// # Errors
-    /// If there is no maze for mice.
-    pub(in crate::cli) fn read(path: &Path) -> Result<Self, Failure> {
+    /// If there is no maze for mice, or `looks` asks to show one run and there are several.
+    pub(in crate::cli) fn read(path: &Path, looks: &Looks) -> Result<Self> {
         let mut mazes = Vec::new();
         let mut unsound = Unsound::default();
         for file in input::files(path)? {
@@ -43,6 +44,8 @@ impl Collection {
                 path.display()
             )));
         }
+        looks.of_one(path, mazes.len() + unsound.len())?;
+        looks.check()?;
         Ok(Self { mazes, unsound })
     }
 }
@@ -64,8 +67,8 @@ fn for_robots(file: &MazeFile) -> Option<&'static str> {
 pub(in crate::cli) fn each<'a, T: Send>(
     mazes: &'a [(PathBuf, Maze)],
     jobs: Option<u16>,
-    work: impl Fn(&'a Path, &'a Maze) -> Result<T, Failure> + Sync,
-) -> Result<Vec<T>, Failure> {
+    work: impl Fn(&'a Path, &'a Maze) -> Result<T> + Sync,
+) -> Result<Vec<T>> {
     // A single maze may be drawn on the terminal, so it runs on this thread.
     if let [(file, maze)] = mazes {
         return Ok(vec![work(file, maze)?]);
@@ -86,26 +89,6 @@ pub(in crate::cli) fn each<'a, T: Send>(
     })
 }
 
-/// Fails if the mouse did not solve all mazes, each given as a file and whether it did. The failure
-/// names a single unsolved maze.
-///
-/// # Errors
-/// A failure with the number of mazes that were not solved.
-pub(in crate::cli) fn all_solved<'a>(
-    tried: impl Iterator<Item = (&'a Path, bool)>,
-) -> Result<(), Failure> {
-    let (solved, unsolved): (Vec<_>, Vec<_>) = tried.partition(|(_, solved)| *solved);
-    let which = match (&unsolved[..], &solved[..]) {
-        ([], _) => return Ok(()),
-        ([(only, _)], []) => input::name(only),
-        _ => {
-            let all = solved.len() + unsolved.len();
-            format!("{} of {all} mazes", unsolved.len())
-        }
-    };
-    Err(Failure::Failed(anyhow!("the mouse did not solve {which}")))
-}
-
 /// Failures of the mazes that cannot be used.
 #[derive(Default)]
 pub(in crate::cli) struct Unsound(Vec<Failure>);
@@ -116,10 +99,7 @@ impl Unsound {
     }
 
     /// Keeps the failures, and returns the other results.
-    pub(in crate::cli) fn sift<T>(
-        &mut self,
-        outcomes: Vec<Result<T, Failure>>,
-    ) -> impl Iterator<Item = T> {
+    pub(in crate::cli) fn sift<T>(&mut self, outcomes: Vec<Result<T>>) -> impl Iterator<Item = T> {
         let sift = |outcome| match outcome {
             Ok(sound) => Some(sound),
             Err(failure) => {
@@ -137,7 +117,7 @@ impl Unsound {
 
     /// Prints each failure, and fails if there are any. If the only maze failed, its own failure is
     /// returned.
-    pub(in crate::cli) fn complain(mut self, sound: usize) -> Result<(), Failure> {
+    pub(in crate::cli) fn complain(&mut self, sound: usize) -> Result {
         let (bad, all) = (self.len(), self.len() + sound);
         if all == 1
             && let Some(only) = self.0.pop()

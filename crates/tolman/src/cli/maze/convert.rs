@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use super::output::Output;
-use super::{Failure, input};
+use super::{Result, input};
 
 /// Writes a maze in another format
 #[derive(clap::Args)]
@@ -21,6 +21,6 @@ pub(crate) struct Arguments {
     output: Output,
 }
 
-pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     arguments.output.write(&input::parse(&arguments.file)?, out)
 }

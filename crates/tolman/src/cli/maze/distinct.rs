@@ -8,8 +8,8 @@ use tolman_arena::cpm::{WalkPair, distinctness, epuck_course};
 use tolman_arena::registry::Schooling;
 use tolman_maps::cpm::Sense;
 
-use super::{Failure, OrBadInput, name, read};
-use crate::cli::of_registry;
+use super::{OrBadInput, Result, name, read};
+use crate::cli::Unboxed;
 use crate::cli::share::share;
 
 /// Lets an e-puck walk every fragment of mazes both ways; exits 2 if two of them look alike
@@ -32,8 +32,8 @@ pub(crate) struct Arguments {
     below: f64,
 }
 
-pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
-    let patterns = Schooling::of_epuck_by(arguments.seed).map_err(of_registry)?;
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
+    let patterns = Schooling::of_epuck_by(arguments.seed).unboxed()?;
     for path in &arguments.mazes {
         let course = epuck_course(&name(path), read(path)?);
         let course = course.with_context(|| name(path)).or_bad_input()?;

@@ -9,8 +9,8 @@ use tolman_arena::family::{Family, FamilySize};
 use tolman_maze::{Braided, Maze, Rooms};
 
 use super::output::Output;
-use super::{Failure, OrBadInput};
-use crate::cli::App;
+use super::{Failure, OrBadInput, Result};
+use crate::cli::{App, Unboxed};
 
 /// Makes a random maze; the same seed makes the same maze
 #[derive(clap::Args)]
@@ -58,11 +58,7 @@ enum Size {
     Cells(u16, u16),
 }
 
-pub(super) fn carry_out(
-    app: &App<'_>,
-    arguments: &Arguments,
-    out: &mut dyn Write,
-) -> Result<(), Failure> {
+pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -> Result {
     if arguments.list {
         return list(app, out);
     }
@@ -75,7 +71,7 @@ pub(super) fn carry_out(
     arguments.output.write(&maze.into(), out)
 }
 
-fn list(app: &App<'_>, out: &mut dyn Write) -> Result<(), Failure> {
+fn list(app: &App, out: &mut dyn Write) -> Result {
     for family in &app.registry().families {
         let Family {
             name, about, hard, ..
@@ -90,7 +86,7 @@ fn list(app: &App<'_>, out: &mut dyn Write) -> Result<(), Failure> {
 }
 
 impl Arguments {
-    fn draw(&self, family: &Family, (width, height): (u16, u16)) -> Result<Maze, Failure> {
+    fn draw(&self, family: &Family, (width, height): (u16, u16)) -> Result<Maze> {
         let rng = &mut ChaCha8Rng::seed_from_u64(self.seed);
         self.check(family.name)?;
         if let Some(share) = self.share {
@@ -113,7 +109,7 @@ impl Arguments {
             return rooms.generate(rng).or_bad_input();
         }
         let drawn = (family.draw)((width, height), rng);
-        drawn.map_err(anyhow::Error::from_boxed).or_bad_input()
+        drawn.unboxed().or_bad_input()
     }
 
     const fn has_rooms(&self) -> bool {
@@ -124,7 +120,7 @@ impl Arguments {
     }
 
     /// Refuses options that `family` does not have.
-    fn check(&self, family: &str) -> Result<(), Failure> {
+    fn check(&self, family: &str) -> Result {
         if self.share.is_some() && family != "braided" {
             let why =
                 anyhow!("--share belongs to the family braided, not to {family}: leave it out");

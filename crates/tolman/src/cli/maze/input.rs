@@ -8,27 +8,31 @@ use tolman_experiment::files::files_in;
 use tolman_formats::input::{self, SourceError};
 use tolman_maze::MazeFile;
 
-use super::{Failure, OrBadInput};
+use super::{Failure, OrBadInput, Result};
 use crate::cli::kind::Kind;
 
 /// Reads a valid maze from a file in any format, or from stdin if the path is `-`.
 ///
 /// # Errors
 /// Bad input with the file's name, and with line and column if the text is at fault.
-pub(in crate::cli) fn read(path: &Path) -> Result<MazeFile, Failure> {
-    let text = text(path)?;
-    tolman_maze::read(&text)
-        .map_err(|error| Kind::Maze.explain(&text, &name(path), error))
-        .or_bad_input()
+pub(in crate::cli) fn read(path: &Path) -> Result<MazeFile> {
+    read_by(path, tolman_maze::read)
 }
 
 /// Reads a maze like [`read`], but also accepts one without a way to the goal.
 ///
 /// # Errors
 /// As [`read`].
-pub(super) fn parse(path: &Path) -> Result<MazeFile, Failure> {
+pub(super) fn parse(path: &Path) -> Result<MazeFile> {
+    read_by(path, tolman_maze::parse)
+}
+
+fn read_by<E: Into<anyhow::Error>>(
+    path: &Path,
+    read: impl FnOnce(&str) -> Result<MazeFile, E>,
+) -> Result<MazeFile> {
     let text = text(path)?;
-    tolman_maze::parse(&text)
+    read(&text)
         .map_err(|error| Kind::Maze.explain(&text, &name(path), error))
         .or_bad_input()
 }
@@ -38,7 +42,7 @@ pub(super) fn parse(path: &Path) -> Result<MazeFile, Failure> {
 ///
 /// # Errors
 /// If the folder cannot be read or holds no file.
-pub(super) fn files(path: &Path) -> Result<Vec<PathBuf>, Failure> {
+pub(super) fn files(path: &Path) -> Result<Vec<PathBuf>> {
     if !path.is_dir() {
         return Ok(vec![path.to_owned()]);
     }
@@ -77,12 +81,8 @@ pub(in crate::cli) fn world_name(path: &Path, file: &MazeFile) -> String {
 ///
 /// # Errors
 /// Bad input with the file's name.
-pub(in crate::cli) fn text(path: &Path) -> Result<String, Failure> {
-    let text = if is_stdin(path) {
-        input::text_of(io::stdin().lock())
-    } else {
-        input::text(path)
-    };
+pub(in crate::cli) fn text(path: &Path) -> Result<String> {
+    let text = source(path);
     text.map_err(|error| match error {
         SourceError::System(error) => anyhow::Error::from(error).context(format!(
             "cannot read {}; give the path of a file",
@@ -101,6 +101,15 @@ pub(in crate::cli) fn text(path: &Path) -> Result<String, Failure> {
     .or_bad_input()
 }
 
-fn is_stdin(path: &Path) -> bool {
+/// Returns the text of a file, or of stdin if the path is `-`.
+pub(in crate::cli) fn source(path: &Path) -> Result<String, SourceError> {
+    match is_stdin(path) {
+        true => input::text_of(io::stdin().lock()),
+        false => input::text(path),
+    }
+}
+
+/// Returns whether a path stands for stdin.
+pub(in crate::cli) fn is_stdin(path: &Path) -> bool {
     path.as_os_str() == "-"
 }

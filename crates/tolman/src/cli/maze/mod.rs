@@ -14,9 +14,9 @@ use std::io::Write;
 
 use clap::Subcommand;
 
-use super::{App, Failure, OrBadInput, file};
-pub(super) use collection::{Collection, all_solved, each};
-pub(super) use input::{name, read, text, world_name};
+use super::{App, Failure, OrBadInput, Result, file};
+pub(super) use collection::{Collection, each};
+pub(super) use input::{is_stdin, name, read, source, text, world_name};
 
 /// Shows, checks, converts and generates mazes
 #[derive(Subcommand)]
@@ -29,7 +29,7 @@ pub(super) enum Verb {
 }
 
 impl Verb {
-    pub(super) fn carry_out(self, app: &App<'_>, out: &mut dyn Write) -> Result<(), Failure> {
+    pub(super) fn carry_out(self, app: &App, out: &mut dyn Write) -> Result {
         match self {
             Self::Show(arguments) => show::carry_out(&arguments, out),
             Self::Check(arguments) => check::carry_out(&arguments, out),

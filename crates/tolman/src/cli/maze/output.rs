@@ -7,7 +7,8 @@ use anyhow::Context;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use tolman_maze::{Format, MazeFile, write};
 
-use super::{Failure, OrBadInput, file};
+use super::{OrBadInput, Result, file};
+use crate::cli::failure::note;
 
 /// Destination and format of a maze that is written.
 #[derive(clap::Args)]
@@ -21,22 +22,17 @@ pub(super) struct Output {
 }
 
 impl Output {
-    pub(super) fn write(&self, maze: &MazeFile, out: &mut dyn Write) -> Result<(), Failure> {
+    pub(super) fn write(&self, maze: &MazeFile, out: &mut dyn Write) -> Result {
         let text = write(maze, self.to)
             .context("cannot write the maze")
             .or_bad_input()?;
         if let Some(lost) = self.lost(maze) {
-            // If stderr cannot be written, there is no other place to report it.
-            let _ = writeln!(
-                anstream::stderr(),
-                "note: the format `{}` has no room for {lost}; `tolman` has",
+            note(&format!(
+                "the format `{}` has no room for {lost}; `tolman` has",
                 self.to.name()
-            );
+            ));
         }
-        match &self.out {
-            Some(path) => file::write(path, &text),
-            None => Ok(out.write_all(text.as_bytes())?),
-        }
+        file::write_or_show(self.out.as_deref(), &text, out)
     }
 
     /// Returns, in words, the contents of the maze file that the format cannot hold; `None` if

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use super::{Failure, input, summary::Summary};
+use super::{Result, input, summary::Summary};
 
 /// Draws a maze of any format as text
 #[derive(clap::Args)]
@@ -18,7 +18,7 @@ pub(crate) struct Arguments {
     json: bool,
 }
 
-pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result<(), Failure> {
+pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     let read = input::parse(&arguments.file)?;
     let summary = Summary::of(input::name(&arguments.file), &read);
     if arguments.json {

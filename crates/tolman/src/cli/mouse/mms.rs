@@ -6,10 +6,10 @@ use anyhow::Error;
 use tolman_systems::micromouse::Until;
 use tolman_systems::micromouse::mms::{PlayError, play};
 
-use crate::cli::{Failure, OrBadInput};
+use crate::cli::{OrBadInput, Result};
 
 /// Speaks the protocol of mms on stdin and `out`; the log goes to stderr.
-pub(super) fn carry_out(until: Until, out: &mut dyn Write) -> Result<(), Failure> {
+pub(super) fn carry_out(until: Until, out: &mut dyn Write) -> Result {
     match play(io::stdin().lock(), out, io::stderr().lock(), until) {
         Ok(_) => Ok(()),
         // The simulator's output is this program's input.

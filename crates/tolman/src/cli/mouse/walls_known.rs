@@ -2,7 +2,7 @@ use alloc::collections::BTreeMap;
 
 use tolman_arena::micromouse::SideSeen;
 use tolman_geom::Point;
-use tolman_maze::{Cell, Direction, Grid};
+use tolman_maze::{Cell, Direction, Grid, Wall};
 use tolman_replay::{EdgeKind, MapEdge, MapGrowth, MapNode, TimeSeries};
 
 /// Walls that a mouse knows, with the step at which it learned each.
@@ -11,11 +11,8 @@ pub(super) struct WallsKnown {
     grid: Grid,
     /// Distance between two posts, m.
     pitch: f64,
-    /// Walls known to stand, by their posts.
-    standing: BTreeMap<(u32, u32), u32>,
-    /// Sides of cells that are known, by the number of the wall that stands there or could stand
-    /// there.
-    sides: BTreeMap<u32, SideKnown>,
+    /// Sides of cells that are known, by the wall that stands there or could stand there.
+    sides: BTreeMap<Wall, SideKnown>,
 }
 
 /// Knowledge of a mouse about one side.
@@ -32,48 +29,45 @@ impl WallsKnown {
         Self {
             grid,
             pitch,
-            standing: BTreeMap::new(),
             sides: BTreeMap::new(),
         }
     }
 
     /// Records a side that was seen after `step`.
-    pub(super) fn see(&mut self, step: u32, seen: SideSeen) {
+    pub(super) fn see(&mut self, since: u32, seen: SideSeen) {
         let SideSeen { cell, side, stands } = seen;
-        let known = SideKnown {
-            since: step,
-            stands,
-        };
-        let number = self.grid.wall(cell, side).0;
-        self.sides.entry(number).or_insert(known);
-        if stands {
-            let (x, y) = (u32::from(cell.x), u32::from(cell.y));
-            let ends = match side {
-                Direction::North => [(x, y + 1), (x + 1, y + 1)],
-                Direction::East => [(x + 1, y), (x + 1, y + 1)],
-                Direction::South => [(x, y), (x + 1, y)],
-                Direction::West => [(x, y), (x, y + 1)],
-            };
-            let [from, to] = ends.map(|(x, y)| self.post(x, y));
-            self.standing.entry((from, to)).or_insert(step);
-        }
+        let known = self.sides.entry(self.grid.wall(cell, side));
+        known.or_insert(SideKnown { since, stands });
     }
 
     /// Returns whether the mouse knows that there is no wall on a side of a cell.
     pub(super) fn knows_open(&self, cell: Cell, side: Direction) -> bool {
-        let known = self.sides.get(&self.grid.wall(cell, side).0);
+        let known = self.sides.get(&self.grid.wall(cell, side));
         known.is_some_and(|known| !known.stands)
     }
 
-    /// Returns the number of a post.
-    fn post(&self, x: u32, y: u32) -> u32 {
-        y * (u32::from(self.grid.width()) + 1) + x
+    /// Returns the numbers of the two posts of a wall; `None` if the grid has no such wall.
+    fn posts(&self, wall: Wall) -> Option<(u32, u32)> {
+        let (cell, side) = self.grid.side(wall)?;
+        let (x, y) = (u32::from(cell.x), u32::from(cell.y));
+        let [from, to] = match side {
+            Direction::North => [(x, y + 1), (x + 1, y + 1)],
+            Direction::East => [(x + 1, y), (x + 1, y + 1)],
+            Direction::South => [(x, y), (x + 1, y)],
+            Direction::West => [(x, y), (x, y + 1)],
+        };
+        let post = |(x, y)| y * (u32::from(self.grid.width()) + 1) + x;
+        Some((post(from), post(to)))
     }
 
     /// Returns the known walls as a map that grows.
     pub(super) fn growth(&self) -> MapGrowth {
+        let walls = self.sides.iter().filter(|(_, known)| known.stands);
+        let standing: BTreeMap<(u32, u32), u32> = walls
+            .filter_map(|(wall, known)| Some((self.posts(*wall)?, known.since)))
+            .collect();
         let mut posts: BTreeMap<u32, u32> = BTreeMap::new();
-        for (&(from, to), &step) in &self.standing {
+        for (&(from, to), &step) in &standing {
             for post in [from, to] {
                 let born = posts.entry(post).or_insert(step);
                 *born = step.min(*born);
@@ -86,7 +80,7 @@ impl WallsKnown {
         let nodes = posts
             .iter()
             .map(|(post, born)| MapNode::new(*post, at(*post), *born));
-        let edges = self.standing.iter().map(|(&(from, to), &born)| MapEdge {
+        let edges = standing.iter().map(|(&(from, to), &born)| MapEdge {
             kind: EdgeKind::Wall,
             ..MapEdge::new(from, to, born)
         });

@@ -1,18 +1,20 @@
 //! The way of a mouse through a maze, to show and to write down.
 
-use anyhow::Context;
-use serde_json::{Value, json};
+use std::path::Path;
+
+use serde_json::Value;
 use tolman_arena::course::Course;
 use tolman_arena::micromouse::SideSeen;
+use tolman_film::scenery_of;
 use tolman_geom::{Point, Pose};
 use tolman_maze::{Cell, Direction, Maze};
-use tolman_replay::{Floor, Mark, Marks, Notes, Replay, RobotTrack, Scenery};
+use tolman_replay::{Mark, Marks, Notes, Replay, RobotTrack};
 use tolman_robot::Body;
 
 use super::walls_known::WallsKnown;
 use crate::cli::live::{Live, Now, Scene};
 use crate::cli::looks::Looks;
-use crate::cli::{Failure, OrBadInput, file, picture, replay_file};
+use crate::cli::{OrBadInput, Result, maze, picture};
 
 /// Distance between the middles of two cells, as in competitions, m.
 pub(in crate::cli) const PITCH: f64 = 0.18;
@@ -42,8 +44,7 @@ pub(in crate::cli) struct Way {
     run: Option<usize>,
     /// Numbers of the steps after which the mouse was put back to the start.
     lifts: Vec<u32>,
-    /// View that shows the way live; `None` without one.
-    live: Option<Live>,
+    live: Live,
 }
 
 /// Result of one of the mouse's steps.
@@ -70,29 +71,37 @@ pub(in crate::cli) enum Came {
 }
 
 impl Way {
-    /// Returns a way without steps. `header` goes into the first line of the trace, beside its
-    /// format.
+    /// Returns the way of a mouse that is about to begin, or `None` if `looks` asks for nothing to
+    /// show. The middles of two cells are `pitch` metres apart, and `step_limit` is the maximum
+    /// number of steps. `header` goes into the first line of the trace, beside its format.
     ///
     /// # Errors
-    /// If the maze marks no start.
-    pub(in crate::cli) fn new(name: String, maze: &Maze, header: Value) -> Result<Self, Failure> {
-        Self::of_pitch(name, maze, header, PITCH)
-    }
-
-    /// Returns the same as [`new`](Self::new), for cells of another size: the distance between the
-    /// middles of two cells is `pitch`, m.
-    ///
-    /// # Errors
-    /// If the maze marks no start.
-    pub(in crate::cli) fn of_pitch(
-        name: String,
+    /// If the maze marks no start, or the terminal has gone.
+    pub(in crate::cli) fn watched(
+        file: &Path,
         maze: &Maze,
         header: Value,
         pitch: f64,
-    ) -> Result<Self, Failure> {
+        looks: &Looks,
+        step_limit: Option<u32>,
+    ) -> Result<Option<Self>> {
+        if !looks.any() {
+            return Ok(None);
+        }
+        let name = maze::name(file);
         let course = Course::new(&name, maze.clone(), pitch).or_bad_input()?;
         let start = course.start().or_bad_input()?;
-        Ok(Self {
+        let scene = || Scene {
+            course: course.clone(),
+            word: "mouse".to_owned(),
+            seed: header["seed"].as_u64().unwrap_or(0),
+            start,
+            step_us: STEP_US,
+            radius: RADIUS * pitch,
+            step_limit,
+        };
+        let live = Live::open(looks.live, scene)?;
+        Ok(Some(Self {
             name,
             course,
             header,
@@ -102,32 +111,8 @@ impl Way {
             walls: WallsKnown::new(maze.grid(), pitch),
             run: None,
             lifts: Vec::new(),
-            live: None,
-        })
-    }
-
-    /// Shows the way step by step from now on, if `looks` asks for it. `step_limit` is the maximum
-    /// number of steps.
-    ///
-    /// # Errors
-    /// If the terminal has gone.
-    pub(in crate::cli) fn watched(
-        mut self,
-        looks: &Looks,
-        step_limit: Option<u32>,
-    ) -> Result<Self, Failure> {
-        if looks.live {
-            self.live = Some(Live::open(Scene {
-                course: self.course.clone(),
-                word: "mouse".to_owned(),
-                seed: self.header["seed"].as_u64().unwrap_or(0),
-                start: self.poses[0],
-                step_us: STEP_US,
-                radius: RADIUS * self.pitch,
-                step_limit,
-            })?);
-        }
-        Ok(self)
+            live,
+        }))
     }
 
     /// Returns the pose in the middle of a cell, looking towards `direction`.
@@ -156,15 +141,13 @@ impl Way {
         if step.came == Came::PutBack {
             self.lifts.push(self.poses.len() as u32);
         }
-        if let Some(live) = &mut self.live {
-            live.watch(&Now {
-                pose: step.pose,
-                bump: step.came == Came::Crashed,
-                action: &step.words,
-                ended: None,
-                scan: None,
-            });
-        }
+        self.live.watch(&Now {
+            pose: step.pose,
+            bump: step.came == Came::Crashed,
+            action: &step.words,
+            ended: None,
+            scan: None,
+        });
         self.poses.push(step.pose);
         self.steps.push(step);
     }
@@ -173,78 +156,60 @@ impl Way {
     ///
     /// # Errors
     /// If a file cannot be written, or the terminal has gone.
-    pub(in crate::cli) fn show(mut self, looks: &Looks, told: &str) -> Result<(), Failure> {
-        let overwrite = looks.overwrite()?;
-        if let Some(live) = self.live.take() {
-            live.close(told).context("the terminal has gone")?;
-        }
-        if let Some(path) = &looks.trace {
-            file::write(path, self.trace())?;
-        }
-        if let Some(path) = &looks.svg {
-            let (before, run) = self.poses.split_at(self.run.unwrap_or(0));
-            file::write(path, picture::of_runs(&self.course, &[before, run], told))?;
-        }
-        match &looks.replay {
-            Some(path) => replay_file::write(path, self.replay(told), overwrite),
-            None => Ok(()),
-        }
+    pub(in crate::cli) fn show(mut self, looks: &Looks, told: &str) -> Result {
+        looks.check()?;
+        self.live.close(told)?;
+        looks.write(
+            || Ok(self.trace().into_bytes()),
+            || {
+                let (before, run) = self.poses.split_at(self.run.unwrap_or(0));
+                picture::of_runs(&self.course, &[before, run], told)
+            },
+            || self.replay(told),
+        )
     }
 
     /// Returns the way as JSON lines: a header, then one line per step.
     fn trace(&self) -> String {
-        let mut header = json!({ "format": "tolman-mouse-trace", "version": 1, "maze": self.name });
-        if let (Value::Object(header), Value::Object(more)) = (&mut header, &self.header) {
-            header.extend(more.clone());
-        }
+        let mut header = self.header.clone();
+        header["format"] = "tolman-mouse-trace".into();
+        header["version"] = 1.into();
+        header["maze"] = self.name.as_str().into();
         let mut text = format!("{header}\n");
         for (number, step) in (1..).zip(&self.steps) {
-            let mut line = json!({ "step": number });
-            if let (Value::Object(line), Value::Object(more)) = (&mut line, &step.line) {
-                line.extend(more.clone());
-            }
+            let mut line = step.line.clone();
+            line["step"] = Value::from(number);
             text += &format!("{line}\n");
         }
         text
     }
 
-    fn replay(self, told: &str) -> Replay {
-        let world = &self.course.world;
+    fn replay(&self, told: &str) -> Replay {
         let radius = RADIUS * self.pitch;
         let body = Body::Circle { radius };
         let mut track = RobotTrack::new("mouse", body, self.poses.clone());
-        let mut scenery = Scenery::of_world(world);
-        if let Some(floor) = Floor::from(world, self.poses[0].position) {
-            scenery.zones.extend(floor.solid());
-            let places = self.poses.iter().map(|pose| pose.position);
-            track.series.push(floor.coverage(places));
-        }
+        let scenery = scenery_of(&self.course, &mut track);
         let mut moves = Notes::new("move");
-        for (step, done) in (1..).zip(&self.steps) {
-            moves.say(step, done.words.clone());
+        let mut crashes = Marks::new(Mark::Bump, "crash", []);
+        for (number, step) in (1..).zip(&self.steps) {
+            moves.say(number, step.words.clone());
+            if step.came == Came::Crashed {
+                crashes.steps.push(number);
+            }
         }
         track.notes = vec![moves];
         track.series.push(self.walls.count());
         track.maps = vec![self.walls.growth()];
-        track.marks = vec![
-            Marks::new(Mark::Bump, "crash", self.crashes()),
-            Marks::new(Mark::Event, "put back to the start", self.lifts.clone()),
-        ];
-        track.lifts = self.lifts;
+        let put_back = Marks::new(Mark::Event, "put back to the start", self.lifts.clone());
+        track.marks = vec![crashes, put_back];
+        track.lifts.clone_from(&self.lifts);
         let title = format!("A mouse in {}", self.name);
         let replay = Replay::new(title, STEP_US as f64 * 1e-6, scenery, vec![track]);
         let facts = self.header.as_object().into_iter().flatten();
         let words = facts.filter_map(|(name, value)| Some((name, value.as_str()?)));
-        let replay = words.fold(replay.fact("maze", self.name), |replay, (name, value)| {
-            replay.fact(name, value)
-        });
+        let replay = replay.fact("maze", &self.name);
+        let replay = words.fold(replay, |replay, (name, value)| replay.fact(name, value));
         replay.fact("outcome", told)
-    }
-
-    fn crashes(&self) -> Vec<u32> {
-        let steps = (1..).zip(&self.steps);
-        let crashed = steps.filter(|(_, step)| step.came == Came::Crashed);
-        crashed.map(|(number, _)| number).collect()
     }
 }
 

@@ -10,7 +10,7 @@ use tolman_formats::input;
 use tolman_maze::Maze;
 use tolman_planners::speed_run::{SpeedRunConfig, SpeedRunTimes};
 
-use crate::cli::{Failure, OrBadInput};
+use crate::cli::{OrBadInput, Result};
 
 /// Maximum number of columns or rows of a classic maze.
 const CLASSIC: u16 = 16;
@@ -23,7 +23,7 @@ impl Params {
     ///
     /// # Errors
     /// Bad input if it cannot be read, or no mouse can drive with its values.
-    pub(super) fn read(path: Option<&Path>) -> Result<Self, Failure> {
+    pub(super) fn read(path: Option<&Path>) -> Result<Self> {
         let Some(path) = path else {
             return Ok(Self(None));
         };

@@ -10,9 +10,9 @@ use tolman_planners::speed_run::{RunState, SpeedRunConfig};
 use tolman_systems::micromouse::competition::RunLeg;
 
 use super::told::in_words;
+use crate::cli::Result;
 use crate::cli::looks::Looks;
 use crate::cli::mouse::{Came, Way, WayStep};
-use crate::cli::{Failure, maze};
 
 /// The way of a mouse: the exploration cell by cell, then the fast run.
 pub(super) struct Shown {
@@ -22,19 +22,17 @@ pub(super) struct Shown {
 }
 
 impl Shown {
+    /// Returns the way of a mouse that is about to begin; `None` if it is not to be shown.
     pub(super) fn new(
         file: &Path,
         maze: &Maze,
         config: &SpeedRunConfig,
         looks: &Looks,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Option<Self>> {
         let header = json!({ "rules": "competition", "mouse": config });
         let pitch = config.cell_mm / 1000.0;
-        let way = Way::of_pitch(maze::name(file), maze, header, pitch)?;
-        Ok(Self {
-            way: way.watched(looks, None)?,
-            last: None,
-        })
+        let way = Way::watched(file, maze, header, pitch, looks, None)?;
+        Ok(way.map(|way| Self { way, last: None }))
     }
 
     /// Adds that the exploring mouse is in `cell` and sees its four sides.
@@ -121,7 +119,8 @@ impl Shown {
     }
 }
 
-fn side_towards(from: Cell, to: Cell) -> Option<Direction> {
+/// Returns the side of a cell on which a neighbour is; `None` if the other is none.
+pub(super) fn side_towards(from: Cell, to: Cell) -> Option<Direction> {
     let mut sides = Direction::ALL.into_iter();
     sides.find(|side| from.beyond(*side) == Some(to))
 }

@@ -1,27 +1,24 @@
 //! Describes a race in words, letters and JSON.
 
-use std::io::Write;
+use std::path::Path;
 
+use anyhow::Error;
 use serde_json::{Value, json};
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_planners::speed_run::{RunMove, RunState, Side, Slalom};
 use tolman_systems::micromouse::competition::{RunLeg, SpeedRunExploration};
 
 use super::Raced;
-use crate::cli::{Failure, maze};
+use super::shown::side_towards;
+use crate::cli::mice::MouseResult;
 
-impl Raced<'_> {
-    pub(super) fn tell(&self, as_json: bool, out: &mut dyn Write) -> Result<(), Failure> {
-        if as_json {
-            return Ok(writeln!(out, "{}", self.json())?);
-        }
-        let name = maze::name(self.file);
-        writeln!(out, "{name}: {}", self.outcome())?;
-        Ok(())
+impl MouseResult for Raced {
+    fn has_solved(&self) -> bool {
+        let explored = self.explored.as_ref();
+        explored.is_some_and(|explored| explored.verdict.is_ok())
     }
 
-    /// Returns the outcome in words.
-    pub(super) fn outcome(&self) -> String {
+    fn outcome(&self) -> String {
         let Some(explored) = &self.explored else {
             return "no way that the mouse can drive leads to a goal".to_owned();
         };
@@ -43,11 +40,10 @@ impl Raced<'_> {
         )
     }
 
-    fn json(&self) -> Value {
+    fn json(&self) -> Result<Value, Error> {
         let mut line = json!({
-            "maze": maze::name(self.file),
             "mouse": self.config,
-            "proven": self.is_proven(),
+            "proven": self.has_solved(),
             "search_path": self.search_path,
         });
         if let Some(explored) = &self.explored {
@@ -61,7 +57,31 @@ impl Raced<'_> {
             line["run_path"] = json!(letters(&explored.run));
             line["moves"] = explored.run.iter().map(move_json).collect();
         }
-        line
+        Ok(line)
+    }
+
+    fn summary(raced: &[(&Path, Self)]) -> String {
+        let explored: Vec<&SpeedRunExploration> = raced
+            .iter()
+            .filter_map(|(_, raced)| raced.explored.as_ref())
+            .collect();
+        let mean = |value: fn(&SpeedRunExploration) -> u32| {
+            let sum: f64 = explored
+                .iter()
+                .map(|explored| f64::from(value(explored)))
+                .sum();
+            sum / explored.len().max(1) as f64
+        };
+        let proven = raced.iter().filter(|(_, raced)| raced.has_solved()).count();
+        format!(
+            "{} mazes: {proven} proven; mean run {:.3} s, {:.1} cells explored: search {:.1}, proof {:.1}, home {:.1}",
+            raced.len(),
+            mean(|explored| explored.certificate.time_ms) / 1000.0,
+            mean(|explored| explored.cells),
+            mean(|explored| explored.search_cells),
+            mean(|explored| explored.proof_cells),
+            mean(home),
+        )
     }
 }
 
@@ -94,10 +114,7 @@ fn move_json(leg: &RunLeg) -> Value {
     });
     match leg.step.run_move {
         RunMove::Straight { cells } | RunMove::Diagonal { cells } => line["cells"] = json!(cells),
-        RunMove::Turn { side, .. } => {
-            let side = if side == Side::Left { "left" } else { "right" };
-            line["side"] = json!(side);
-        }
+        RunMove::Turn { side, .. } => line["side"] = json!(side_name(side)),
     }
     line
 }
@@ -126,18 +143,20 @@ const fn name(run_move: RunMove) -> &'static str {
     }
 }
 
+const fn side_name(side: Side) -> &'static str {
+    match side {
+        Side::Left => "left",
+        Side::Right => "right",
+    }
+}
+
 /// Returns a move in words.
 pub(super) fn in_words(leg: &RunLeg) -> String {
-    let name = name(leg.step.run_move);
-    match leg.step.run_move {
-        RunMove::Straight { cells } | RunMove::Diagonal { cells } => {
-            format!("{name} {cells}, {} ms", leg.time_ms)
-        }
-        RunMove::Turn { side, .. } => {
-            let side = if side == Side::Left { "left" } else { "right" };
-            format!("{name} {side}, {} ms", leg.time_ms)
-        }
-    }
+    let how = match leg.step.run_move {
+        RunMove::Straight { cells } | RunMove::Diagonal { cells } => cells.to_string(),
+        RunMove::Turn { side, .. } => side_name(side).to_owned(),
+    };
+    format!("{} {how}, {} ms", name(leg.step.run_move), leg.time_ms)
 }
 
 /// Returns the cells of an exploration as letters. The first letter gives the turn at the start.
@@ -146,9 +165,7 @@ pub(super) fn search_path(maze: &Maze, cells: &[Cell]) -> String {
         .start()
         .map_or(Direction::North, |(_, heading)| heading);
     let step = |pair: &[Cell]| {
-        let side = Direction::ALL
-            .into_iter()
-            .find(|side| pair[0].beyond(*side) == Some(pair[1]))?;
+        let side = side_towards(pair[0], pair[1])?;
         let letter = match side {
             ahead if ahead == heading => 'S',
             left if left == heading.left() => 'L',
@@ -159,29 +176,4 @@ pub(super) fn search_path(maze: &Maze, cells: &[Cell]) -> String {
         Some(letter)
     };
     cells.windows(2).filter_map(step).collect()
-}
-
-/// Returns the result of all mazes in one line.
-pub(super) fn summary(raced: &[Raced<'_>]) -> String {
-    let explored: Vec<&SpeedRunExploration> = raced
-        .iter()
-        .filter_map(|raced| raced.explored.as_ref())
-        .collect();
-    let mean = |value: fn(&SpeedRunExploration) -> u32| {
-        let sum: f64 = explored
-            .iter()
-            .map(|explored| f64::from(value(explored)))
-            .sum();
-        sum / explored.len().max(1) as f64
-    };
-    let proven = raced.iter().filter(|raced| raced.is_proven()).count();
-    format!(
-        "{} mazes: {proven} proven; mean run {:.3} s, {:.1} cells explored: search {:.1}, proof {:.1}, home {:.1}",
-        raced.len(),
-        mean(|explored| explored.certificate.time_ms) / 1000.0,
-        mean(|explored| explored.cells),
-        mean(|explored| explored.search_cells),
-        mean(|explored| explored.proof_cells),
-        mean(home),
-    )
 }

@@ -1,0 +1,106 @@
+//! Mice that are sent through one maze or many, shown on their way, and told of.
+
+use std::io::Write;
+use std::path::Path;
+
+use anyhow::{Error, anyhow};
+use serde_json::{Value, json};
+use tolman_maze::Maze;
+
+use super::looks::Looks;
+use super::maze::Collection;
+use super::mouse::Way;
+use super::{Failure, Result, maze};
+
+/// Result of a mouse in a maze.
+pub(super) trait MouseResult: Send {
+    /// Returns the outcome in words.
+    fn outcome(&self) -> String;
+
+    /// Returns the figures of a line of `--json`, which names the maze besides.
+    fn json(&self) -> Result<Value, Error>;
+
+    /// Returns whether the mouse solved its maze.
+    fn has_solved(&self) -> bool;
+
+    /// Returns the results of several mazes in one line.
+    fn summary(all: &[(&Path, Self)]) -> String
+    where
+        Self: Sized;
+}
+
+/// A result in the maze of a file, with the mouse's way if it is shown.
+pub(super) type Tried<'a, T> = (&'a Path, T, Option<Way>);
+
+/// Calls `send` with each maze, `jobs` at a time or one per core, and tells the results. `draw`
+/// writes what comes before their summary.
+///
+/// # Errors
+/// If a maze is invalid, a mouse did not solve its maze, or a file cannot be written.
+pub(super) fn send_all<'a, T: MouseResult>(
+    Collection { mazes, unsound }: &'a mut Collection,
+    jobs: Option<u16>,
+    looks: &Looks,
+    out: &mut dyn Write,
+    send: impl Fn(&'a Path, &'a Maze) -> Result<(T, Option<Way>)> + Sync,
+    draw: impl FnOnce(&[(&Path, T)], &mut dyn Write) -> Result,
+) -> Result {
+    // A maze that no mouse can run in must not stop the others.
+    let sent = maze::each(mazes, jobs, |file, maze| {
+        Ok(send(file, maze).map(|(tried, way)| (file, tried, way)))
+    })?;
+    let told = tell(unsound.sift(sent), looks, out, draw)?;
+    unsound.complain(told.len())?;
+    all_solved(&told)
+}
+
+/// Tells what came of the mice, maze by maze, and shows their ways.
+///
+/// # Errors
+/// If a file cannot be written.
+pub(super) fn tell<'a, T: MouseResult>(
+    tried: impl IntoIterator<Item = Tried<'a, T>>,
+    looks: &Looks,
+    out: &mut dyn Write,
+    draw: impl FnOnce(&[(&Path, T)], &mut dyn Write) -> Result,
+) -> Result<Vec<(&'a Path, T)>> {
+    let mut told = Vec::new();
+    for (file, tried, way) in tried {
+        let (name, outcome) = (maze::name(file), tried.outcome());
+        if let Some(way) = way {
+            way.show(looks, &outcome)?;
+        }
+        if looks.json {
+            let mut line = tried.json()?;
+            line["maze"] = json!(name);
+            writeln!(out, "{line}")?;
+        } else {
+            writeln!(out, "{name}: {outcome}")?;
+        }
+        told.push((file, tried));
+    }
+    if !looks.json {
+        draw(&told, out)?;
+        if told.len() > 1 {
+            writeln!(out, "{}", T::summary(&told))?;
+        }
+        looks.tell_replay(out)?;
+    }
+    // Results come before complaints, even if both streams go to one place.
+    out.flush()?;
+    Ok(told)
+}
+
+/// Fails if the mouse did not solve all mazes. The failure names a single unsolved maze.
+///
+/// # Errors
+/// A failure with the number of mazes that were not solved.
+pub(super) fn all_solved<T: MouseResult>(tried: &[(&Path, T)]) -> Result {
+    let mut unsolved = tried.iter().filter(|(_, tried)| !tried.has_solved());
+    let which = match (unsolved.clone().count(), unsolved.next()) {
+        (_, None) => return Ok(()),
+        (_, Some((only, _))) if tried.len() == 1 => maze::name(only),
+        (count, _) => format!("{count} of {} mazes", tried.len()),
+    };
+    Err(Failure::Failed(anyhow!("the mouse did not solve {which}")))
+}
