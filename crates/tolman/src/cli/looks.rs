@@ -41,13 +41,7 @@ impl Looks {
     /// # Errors
     /// Bad input if `path` holds several `mazes` and an option needs a single one.
     pub(super) fn of_one(&self, path: &Path, mazes: usize) -> Result {
-        let flags = [
-            ("--live", self.live),
-            ("--svg", self.svg.is_some()),
-            ("--trace", self.trace.is_some()),
-            ("--replay", self.replay.is_some()),
-        ];
-        match flags.iter().find(|(_, given)| *given) {
+        match self.shown().find(|(_, given)| *given) {
             Some((flag, _)) if mazes != 1 => Err(Failure::BadInput(anyhow!(
                 "{flag} needs a single maze, but {} holds {mazes}: name a file",
                 path.display()
@@ -57,8 +51,19 @@ impl Looks {
     }
 
     /// Returns whether any option asks to show the run.
-    pub(super) const fn any(&self) -> bool {
-        self.live || self.svg.is_some() || self.trace.is_some() || self.replay.is_some()
+    pub(super) fn any(&self) -> bool {
+        self.shown().any(|(_, given)| given)
+    }
+
+    /// Returns the options that show the run, each with whether it is given.
+    fn shown(&self) -> impl Iterator<Item = (&'static str, bool)> {
+        [
+            ("--live", self.live),
+            ("--svg", self.svg.is_some()),
+            ("--trace", self.trace.is_some()),
+            ("--replay", self.replay.is_some()),
+        ]
+        .into_iter()
     }
 
     /// Refuses to overwrite a file that is not a replay. It is called before the work begins.

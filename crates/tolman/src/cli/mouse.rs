@@ -108,9 +108,8 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     };
     let search = arguments.search()?;
     let looks = &arguments.looks;
-    let mut collection = Collection::read(path, looks)?;
     send_all(
-        &mut collection,
+        &mut Collection::read(path, looks)?,
         arguments.jobs,
         looks,
         out,

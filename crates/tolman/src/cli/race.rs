@@ -94,9 +94,8 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     };
     let params = Params::read(arguments.mouse.as_deref())?;
     let looks = &arguments.looks;
-    let mut collection = Collection::read(path, looks)?;
     send_all(
-        &mut collection,
+        &mut Collection::read(path, looks)?,
         arguments.jobs,
         looks,
         out,
