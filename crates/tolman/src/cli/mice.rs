@@ -29,9 +29,6 @@ pub(super) trait MouseResult: Send {
         Self: Sized;
 }
 
-/// A result in the maze of a file, with the mouse's way if it is shown.
-pub(super) type Tried<'a, T> = (&'a Path, T, Option<Way>);
-
 /// Calls `send` with each maze, `jobs` at a time or one per core, and tells the results. `draw`
 /// writes what comes before their summary.
 ///
@@ -54,12 +51,12 @@ pub(super) fn send_all<'a, T: MouseResult>(
     all_solved(&told)
 }
 
-/// Tells what came of the mice, maze by maze, and shows their ways.
+/// Tells the results, each with its file and the mouse's way if it is shown, maze by maze.
 ///
 /// # Errors
 /// If a file cannot be written.
 pub(super) fn tell<'a, T: MouseResult>(
-    tried: impl IntoIterator<Item = Tried<'a, T>>,
+    tried: impl IntoIterator<Item = (&'a Path, T, Option<Way>)>,
     looks: &Looks,
     out: &mut dyn Write,
     draw: impl FnOnce(&[(&Path, T)], &mut dyn Write) -> Result,

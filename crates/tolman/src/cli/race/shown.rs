@@ -119,7 +119,7 @@ impl Shown {
     }
 }
 
-/// Returns the side of a cell on which a neighbour is; `None` if the other is none.
+/// Returns the side of `from` on which `to` is; `None` if they are not neighbours.
 pub(super) fn side_towards(from: Cell, to: Cell) -> Option<Direction> {
     let mut sides = Direction::ALL.into_iter();
     sides.find(|side| from.beyond(*side) == Some(to))
