@@ -32,9 +32,7 @@ mod ranks;
 mod wilcoxon;
 
 #[cfg(test)]
-mod golden;
-#[cfg(test)]
-mod properties;
+mod tests;
 
 pub use bootstrap::{bca_interval, bootstrap_means, percentile_interval};
 pub use confidence_interval::ConfidenceInterval;

@@ -3,7 +3,7 @@
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-use super::*;
+use crate::*;
 
 /// Samples with many ties.
 fn tied(max: usize) -> impl Strategy<Value = Vec<f64>> {

@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::*;
+use crate::*;
 
 #[derive(Deserialize)]
 struct Golden {
@@ -71,7 +71,7 @@ struct Corrections {
 }
 
 fn golden() -> Golden {
-    serde_json::from_str(include_str!("../tests/data/stats.json")).unwrap()
+    serde_json::from_str(include_str!("../../tests/data/stats.json")).unwrap()
 }
 
 #[track_caller]

@@ -1,0 +1,4 @@
+//! Tests the whole crate at once.
+
+mod golden;
+mod properties;
