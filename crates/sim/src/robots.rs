@@ -1,6 +1,6 @@
 //! Models of robots, one file each, which read like data sheets.
 
-use crate::noise::{Faults, Values};
+use crate::noise::{Fault, Faults, Gaussian, Values};
 
 mod camera_pioneer;
 mod epuck;
@@ -27,4 +27,10 @@ fn names<V: Values>(value: &str, faults: &Faults<V>) -> impl Iterator<Item = Str
         .disturbances()
         .iter()
         .map(move |disturbance| format!("{value}: {disturbance:?}"))
+}
+
+/// Returns the faults of a value with the noise as the first, nearest to the truth.
+fn noisy<V: Values>(value: &str, noise: Gaussian, faults: &[Fault]) -> Faults<V> {
+    let noise = [Fault::Gaussian(noise)].into_iter();
+    Faults::new(value, noise.chain(faults.iter().copied()))
 }

@@ -2,7 +2,7 @@ use thiserror::Error;
 use tolman_geom::Heading;
 use tolman_robot::{Body, LaserSensing, Odometry, Ring, Scan, TurnTranslate};
 
-use super::{WheelScale, names};
+use super::{WheelScale, names, noisy};
 use crate::noise::{Disturbances, Fault, Faults, FaultsError, Gaussian};
 use crate::sensors::{Laser, LaserError, Sensor};
 use crate::trace::Recordable;
@@ -74,6 +74,33 @@ pub struct MotorNoise {
     pub translate: Gaussian,
     /// Standard deviation of the unwanted turn, rad per metre translated.
     pub drift_sd: f64,
+}
+
+impl MotorNoise {
+    /// Returns the motion of a step in which turn and translation are commanded as shares of full
+    /// rate. Commands beyond −1 … 1 count as full rate. Both happen together, along an arc.
+    pub(super) fn motion(
+        &self,
+        commands: [f64; 2],
+        full: [f64; 2],
+        [of_turn, of_distance]: [&mut Faults<f64>; 2],
+        chance: &Chance,
+    ) -> Motion {
+        let driven = |at: usize, faults: &mut Faults<f64>| {
+            let mut made = Some(commands[at].clamp(-1.0, 1.0) * full[at]);
+            // A motor that is not driven keeps still.
+            if commands[at].abs() > 0.0 {
+                faults.disturb(&mut made, chance);
+            }
+            made.unwrap_or(0.0)
+        };
+        let (turn, distance) = (driven(0, of_turn), driven(1, of_distance));
+        let drift = Gaussian::absolute(self.drift_sd * distance.abs());
+        Motion {
+            distance,
+            turn: drift.around(turn, &mut chance.draws(Channel::named("drift"))),
+        }
+    }
 }
 
 /// Faults of a robot beyond plain noise; each list applies in order, after the noise.
@@ -227,30 +254,18 @@ impl LaserPioneer {
         };
         body::check(&body)?;
         let laser = Laser::new(config.ring)?;
-        // Noise is the fault nearest to the truth.
-        let all = |noise: Gaussian, faults: &[Fault]| -> Vec<Fault> {
-            [Fault::Gaussian(noise)]
-                .into_iter()
-                .chain(faults.iter().copied())
-                .collect()
-        };
         let (motors, faults) = (&config.motor_noise, &config.faults);
-        let distance = all(config.odometry_distance_noise, &faults.odometry_distance);
+        let rolled = config.odometry_distance_noise;
+        let turned = config.odometry_turn_noise;
         Ok(Self {
             body,
-            motor_turn: Faults::new("motor turn", all(motors.turn, &faults.motor_turn)),
-            motor_distance: Faults::new(
-                "motor distance",
-                all(motors.translate, &faults.motor_distance),
-            ),
+            motor_turn: noisy("motor turn", motors.turn, &faults.motor_turn),
+            motor_distance: noisy("motor distance", motors.translate, &faults.motor_distance),
             laser,
-            scan: Faults::new("scan", all(config.scan_noise, &faults.scan)),
-            compass: Faults::new("compass", all(config.compass_noise, &faults.compass)),
-            odometry_distance: Faults::new("odometry distance", distance),
-            odometry_turn: Faults::new(
-                "odometry turn",
-                all(config.odometry_turn_noise, &faults.odometry_turn),
-            ),
+            scan: noisy("scan", config.scan_noise, &faults.scan),
+            compass: noisy("compass", config.compass_noise, &faults.compass),
+            odometry_distance: noisy("odometry distance", rolled, &faults.odometry_distance),
+            odometry_turn: noisy("odometry turn", turned, &faults.odometry_turn),
             config,
         })
     }
@@ -296,29 +311,14 @@ impl Model for LaserPioneer {
         CommandError::check("translate", command.translate)
     }
 
-    /// Commands beyond −1 … 1 count as full rate. Turn and translation of one step happen together,
-    /// along an arc.
     fn motion(&mut self, command: &TurnTranslate, chance: &Chance) -> Motion {
         let config = &self.config;
-        let driven = |command: f64, full: f64, faults: &mut Faults<f64>| {
-            let mut made = Some(command.clamp(-1.0, 1.0) * full);
-            // A motor that is not driven keeps still.
-            if command.abs() > 0.0 {
-                faults.disturb(&mut made, chance);
-            }
-            made.unwrap_or(0.0)
-        };
-        let turn = driven(command.turn, config.turn_per_step, &mut self.motor_turn);
-        let distance = driven(
-            command.translate,
-            config.translate_per_step,
-            &mut self.motor_distance,
-        );
-        let drift = Gaussian::absolute(config.motor_noise.drift_sd * distance.abs());
-        Motion {
-            distance,
-            turn: drift.around(turn, &mut chance.draws(Channel::named("drift"))),
-        }
+        config.motor_noise.motion(
+            [command.turn, command.translate],
+            [config.turn_per_step, config.translate_per_step],
+            [&mut self.motor_turn, &mut self.motor_distance],
+            chance,
+        )
     }
 
     fn silent(&self) -> LaserSensing {

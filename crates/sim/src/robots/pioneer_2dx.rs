@@ -5,13 +5,13 @@ use tolman_robot::pioneer_2dx::{
 };
 use tolman_robot::{Body, Odometry, Picture, TurnTranslate};
 
-use super::{MotorNoise, names};
+use super::{MotorNoise, names, noisy};
 use crate::noise::{Disturbances, Fault, Faults, FaultsError, Gaussian};
 use crate::sensors::{
     PictureCamera, PictureCameraConfig, PictureCameraError, Sensor, SonarConfig, SonarError, Sonars,
 };
 use crate::trace::Recordable;
-use crate::{Chance, Channel, CommandError, Contact, Model, Motion, Surroundings};
+use crate::{Chance, CommandError, Contact, Model, Motion, Surroundings};
 
 /// The robot of the place map: a Pioneer 2-DX with sixteen sonars, wheel encoders and a colour
 /// camera.
@@ -283,12 +283,6 @@ impl Pioneer2dx {
     }
 }
 
-/// Returns the faults with the noise as the first, nearest to the truth.
-fn noisy(name: &str, noise: Gaussian, faults: &[Fault]) -> Faults<f64> {
-    let noise = [Fault::Gaussian(noise)].into_iter();
-    Faults::new(name, noise.chain(faults.iter().copied()))
-}
-
 impl Model for Pioneer2dx {
     type Command = TurnTranslate;
     type Sensing = Pioneer2dxSensing;
@@ -310,26 +304,14 @@ impl Model for Pioneer2dx {
         CommandError::check("translate", command.translate)
     }
 
-    /// Commands beyond −1 … 1 count as full rate. Turn and translation of one step happen together,
-    /// along an arc.
     fn motion(&mut self, command: &TurnTranslate, chance: &Chance) -> Motion {
-        let driven = |command: f64, full: f64, faults: &mut Faults<f64>| {
-            let mut made = Some(command.clamp(-1.0, 1.0) * full);
-            // A motor that is not driven keeps still.
-            if command.abs() > 0.0 {
-                faults.disturb(&mut made, chance);
-            }
-            made.unwrap_or(0.0)
-        };
         let config = &self.config;
-        let turn = driven(command.turn, config.turn_per_step, &mut self.motor_turn);
-        let full = config.translate_per_step;
-        let distance = driven(command.translate, full, &mut self.motor_distance);
-        let drift = Gaussian::absolute(config.motor_noise.drift_sd * distance.abs());
-        Motion {
-            distance,
-            turn: drift.around(turn, &mut chance.draws(Channel::named("drift"))),
-        }
+        config.motor_noise.motion(
+            [command.turn, command.translate],
+            [config.turn_per_step, config.translate_per_step],
+            [&mut self.motor_turn, &mut self.motor_distance],
+            chance,
+        )
     }
 
     fn silent(&self) -> Pioneer2dxSensing {
