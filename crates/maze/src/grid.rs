@@ -196,6 +196,15 @@ impl Grid {
             .flat_map(|cell| Direction::ALL.map(|side| (cell, side)));
         sides.filter(move |(cell, side)| self.neighbour(*cell, *side).is_none())
     }
+
+    /// Returns every edge between two cells once: the cell south or west of it, the side of that
+    /// cell that it is on, and the cell beyond.
+    pub fn inner_edges(self) -> impl Iterator<Item = (Cell, Direction, Cell)> {
+        let sides = self
+            .cells()
+            .flat_map(|cell| [(cell, Direction::North), (cell, Direction::East)]);
+        sides.filter_map(move |(cell, side)| Some((cell, side, self.neighbour(cell, side)?)))
+    }
 }
 
 /// Returns the side of a grid whose walls can be numbered.

@@ -348,24 +348,14 @@ fn believe(belief: &Belief, track: &RobotTrack, topic: &str, events: &mut Events
 /// Returns a disc for a part of a belief, as opaque as it is likely. `None` for a node that is on
 /// no map.
 fn believed(shape: &Shape, track: &RobotTrack, step: u32) -> Option<FloorDisc> {
-    let (centre, radius, weight) = match *shape {
-        Shape::Point { position, weight } => (position, BELIEVED, weight),
-        Shape::Pose { pose, weight } => (pose.position, BELIEVED, weight),
-        Shape::Node { id, weight } => {
-            let mut nodes = track.maps.iter().flat_map(|map| &map.nodes);
-            let node = nodes.find(|node| node.id == id)?;
-            (place(node, step), BELIEVED, weight)
-        }
-        Shape::Box { min, max, weight } => {
-            let half = 0.5 * (max - min);
-            (min + half, half.norm(), weight)
-        }
+    let at = |id| Some(place(track.node(id)?, step));
+    let (centre, weight) = shape.middle(at)?;
+    let radius = match *shape {
+        Shape::Box { min, max, .. } => (0.5 * (max - min)).norm(),
         Shape::Ellipse {
-            centre,
-            semi_axes: [a, b],
-            weight,
-            ..
-        } => (centre, a.max(b), weight),
+            semi_axes: [a, b], ..
+        } => a.max(b),
+        _ => BELIEVED,
     };
     let colour = faint(RED, weight);
     Some(FloorDisc {

@@ -264,6 +264,19 @@ pub enum Shape {
     },
 }
 
+impl Shape {
+    /// Returns the middle of the shape and its weight. `at` says where a node lies.
+    pub(super) fn middle(self, at: impl FnOnce(u32) -> Option<Point>) -> Option<(Point, f64)> {
+        Some(match self {
+            Self::Point { position, weight } => (position, weight),
+            Self::Pose { pose, weight } => (pose.position, weight),
+            Self::Node { id, weight } => (at(id)?, weight),
+            Self::Box { min, max, weight } => (min + 0.5 * (max - min), weight),
+            Self::Ellipse { centre, weight, .. } => (centre, weight),
+        })
+    }
+}
+
 /// Numbers over the cells of a grid that change now and then, drawn as colours and, if there is
 /// room, as digits.
 #[derive(Clone, Debug, PartialEq)]

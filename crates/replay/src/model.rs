@@ -1,7 +1,7 @@
 use tolman_geom::Pose;
 use tolman_robot::{Body, Ring};
 
-use super::{Belief, Field, MapGrowth, Marks, Notes, Scenery, TimeSeries};
+use super::{Belief, Field, MapGrowth, MapNode, Marks, Notes, Scenery, TimeSeries};
 
 /// One or several runs in the same world, ready to be played side by side.
 ///
@@ -129,6 +129,12 @@ impl RobotTrack {
             notes: Vec::new(),
             marks: Vec::new(),
         }
+    }
+
+    /// Returns the node of this id, of any map.
+    pub(super) fn node(&self, id: u32) -> Option<&MapNode> {
+        let mut nodes = self.maps.iter().flat_map(|map| &map.nodes);
+        nodes.find(|node| node.id == id)
     }
 }
 

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 use tolman_draw::{Figure, FloorPlan, Series, ZoneStyle};
 use tolman_geom::Point;
 
-use super::{Replay, RobotTrack, Shape, ZoneKind};
+use super::{MapNode, Replay, RobotTrack, Shape, ZoneKind};
 
 /// A stretch of a replay with a caption.
 #[derive(Clone, Debug, PartialEq)]
@@ -124,6 +124,13 @@ impl Clock {
         }
     }
 
+    /// Returns the pictures of each chapter: its first, and the first after it.
+    fn chapters(&self) -> impl Iterator<Item = (usize, usize)> {
+        let ends = self.begins.iter().skip(1).copied();
+        let ends = ends.chain([self.steps.len()]);
+        self.begins.iter().copied().zip(ends)
+    }
+
     /// Returns the first frame that shows `step` or a later one; the number of frames if there is
     /// none.
     fn picture(&self, step: u32) -> usize {
@@ -213,12 +220,10 @@ fn map(plan: &FloorPlan, track: &RobotTrack, clock: &Clock) -> Markup {
 
 /// Returns the way of each chapter, drawn as it is driven.
 fn ways(plan: &FloorPlan, track: &RobotTrack, clock: &Clock) -> Markup {
-    let ends = clock.begins.iter().skip(1).copied();
-    let ends = ends.chain([clock.steps.len()]);
-    let chapters = clock.begins.iter().zip(ends).enumerate();
+    let chapters = clock.chapters().enumerate();
     html! {
         @for (number, (from, to)) in chapters {
-            @let steps = &clock.steps[*from..to];
+            @let steps = &clock.steps[from..to];
             @let at = |step: &u32| plan.at(track.poses[*step as usize].position);
             @let points: Vec<(f64, f64)> = steps.iter().map(at).collect();
             @let path: Vec<String> = points.iter().map(|at| pair(*at)).collect();
@@ -228,7 +233,7 @@ fn ways(plan: &FloorPlan, track: &RobotTrack, clock: &Clock) -> Markup {
                     stroke-opacity=(if number == 0 { "0.35" } else { "0.9" })
                     stroke-linejoin="round" pathLength="1" stroke-dasharray="1 1"
                 {
-                    (drawn(&points, *from, clock))
+                    (drawn(&points, from, clock))
                 }
             }
         }
@@ -270,11 +275,13 @@ fn beliefs(plan: &FloorPlan, track: &RobotTrack, clock: &Clock) -> Markup {
         let to = end.map_or(clock.steps.len(), |end| clock.picture(end));
         (from < to).then_some((entry, from, to))
     });
+    let latest = |id| track.node(id).map(MapNode::latest);
+    let middle = |shape: &Shape| shape.middle(latest);
     html! {
         g class=(Series(3).class()) fill="currentColor" {
             @for (entry, from, to) in entries {
                 g opacity="0" {
-                    @for (position, weight) in entry.shapes.iter().filter_map(|shape| point(track, shape)) {
+                    @for (position, weight) in entry.shapes.iter().filter_map(middle) {
                         @let (x, y) = plan.at(position);
                         circle cx=(short(x, 1)) cy=(short(y, 1))
                             r=(short(6.0 + 12.0 * libm::sqrt(weight), 1))
@@ -284,20 +291,6 @@ fn beliefs(plan: &FloorPlan, track: &RobotTrack, clock: &Clock) -> Markup {
                 }
             }
         }
-    }
-}
-
-fn point(track: &RobotTrack, shape: &Shape) -> Option<(Point, f64)> {
-    match *shape {
-        Shape::Point { position, weight } => Some((position, weight)),
-        Shape::Pose { pose, weight } => Some((pose.position, weight)),
-        Shape::Node { id, weight } => {
-            let nodes = track.maps.iter().flat_map(|map| &map.nodes);
-            let node = nodes.into_iter().find(|node| node.id == id)?;
-            Some((node.latest(), weight))
-        }
-        Shape::Box { min, max, weight } => Some((min + 0.5 * (max - min), weight)),
-        Shape::Ellipse { centre, weight, .. } => Some((centre, weight)),
     }
 }
 
@@ -339,16 +332,14 @@ fn robot(plan: &FloorPlan, track: &RobotTrack, clock: &Clock) -> Markup {
 }
 
 fn captions(chapters: &[Chapter], clock: &Clock, height: f64) -> Markup {
-    let ends = clock.begins.iter().skip(1).copied();
-    let ends = ends.chain([clock.steps.len()]);
     html! {
-        @for ((chapter, from), to) in chapters.iter().zip(&clock.begins).zip(ends) {
+        @for (chapter, (from, to)) in chapters.iter().zip(clock.chapters()) {
             @let hidden = (to < clock.steps.len()).then_some("0");
             text x=(short(0.5 * WIDTH, 0)) y=(short(height + 0.6 * FOOT, 1)) text-anchor="middle"
                 font-size="17" opacity=[hidden]
             {
                 (chapter.caption)
-                (clock.shown(*from, to))
+                (clock.shown(from, to))
             }
         }
     }

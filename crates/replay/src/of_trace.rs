@@ -8,8 +8,7 @@ use tolman_geom::Pose;
 use tolman_robot::epuck::{MOST_WHEEL_SPEED, WheelSpeeds};
 use tolman_robot::{Ring, TurnTranslate};
 use tolman_sim::robots::{
-    CameraPioneer, CameraPioneerConfig, Epuck, EpuckConfig, LaserPioneer, LaserPioneerConfig,
-    Pioneer2dx, Pioneer2dxConfig,
+    CameraPioneer, CameraPioneerConfig, Epuck, LaserPioneer, LaserPioneerConfig, Pioneer2dx,
 };
 use tolman_sim::trace::{Reader, Recordable, ReplayError, TraceLine};
 use tolman_sim::{DoorEvent, DoorState, World};
@@ -21,7 +20,9 @@ use super::{DoorChange, Fact, Mark, Marks, Replay, RobotTrack, Scenery, SceneryD
 /// A kind of robot that replays can show. It adds the sensor and the commands to the body.
 pub trait Portrait: Recordable {
     /// Returns the robot's range sensor, or `None` if the robot has none.
-    fn ring(config: &Self::Config) -> Option<Ring>;
+    fn ring(_config: &Self::Config) -> Option<Ring> {
+        None
+    }
 
     /// Returns the named parts of a command, as shares of their full rates.
     fn parts(command: &Self::Command) -> Vec<(&'static str, f64)>;
@@ -48,20 +49,12 @@ impl Portrait for CameraPioneer {
 }
 
 impl Portrait for Pioneer2dx {
-    fn ring(_config: &Pioneer2dxConfig) -> Option<Ring> {
-        None
-    }
-
     fn parts(command: &TurnTranslate) -> Vec<(&'static str, f64)> {
         LaserPioneer::parts(command)
     }
 }
 
 impl Portrait for Epuck {
-    fn ring(_config: &EpuckConfig) -> Option<Ring> {
-        None
-    }
-
     fn parts(command: &WheelSpeeds) -> Vec<(&'static str, f64)> {
         let share = |speed: f64| speed / MOST_WHEEL_SPEED;
         vec![

@@ -94,44 +94,32 @@ fn tree_with_loop(columns: &[u16], rows: &[u16], rng: &mut impl Rng) -> Maze {
     let mut known = vec![false; grid.cell_count()];
     known[0] = true;
     loop {
-        let mut ways = between(grid);
-        ways.retain(|[a, b]| known[grid.index(a.0)] != known[grid.index(b.0)]);
+        let is_new = |(cell, _, next): &(Cell, Direction, Cell)| {
+            known[grid.index(*cell)] != known[grid.index(*next)]
+        };
+        let ways: Vec<_> = grid.inner_edges().filter(is_new).collect();
         if ways.is_empty() {
             break;
         }
-        let ends = ways[chance::position(ways.len(), rng)];
-        maze.set_wall(ends[0].0, ends[0].1, false);
-        ends.iter().for_each(|end| known[grid.index(end.0)] = true);
+        let (cell, direction, next) = ways[chance::position(ways.len(), rng)];
+        maze.set_wall(cell, direction, false);
+        known[grid.index(cell)] = true;
+        known[grid.index(next)] = true;
     }
-    let mut closed = between(grid);
-    closed.retain(|[(cell, direction), _]| !maze.is_open(*cell, *direction));
+    let mut closed: Vec<_> = grid.inner_edges().collect();
+    closed.retain(|(cell, direction, _)| !maze.is_open(*cell, *direction));
     if !closed.is_empty() {
-        let [(cell, direction), _] = closed[chance::position(closed.len(), rng)];
+        let (cell, direction, _) = closed[chance::position(closed.len(), rng)];
         maze.set_wall(cell, direction, false);
     }
     maze
-}
-
-/// A cell and the direction in which its neighbour lies.
-type End = (Cell, Direction);
-
-/// Returns every pair of neighbours once, each cell with the direction to the other.
-fn between(grid: Grid) -> Vec<[End; 2]> {
-    let pair = |cell, direction: Direction| {
-        let next = grid.neighbour(cell, direction)?;
-        Some([(cell, direction), (next, direction.opposite())])
-    };
-    grid.cells()
-        .flat_map(|cell| [(cell, Direction::North), (cell, Direction::East)])
-        .filter_map(|(cell, direction)| pair(cell, direction))
-        .collect()
 }
 
 /// Returns the maze of cells whose corridors are those of the lattice.
 fn stretched(lattice: &Maze, columns: &[u16], rows: &[u16], grid: Grid) -> Maze {
     let place = |cell: Cell| Cell::new(columns[usize::from(cell.x)], rows[usize::from(cell.y)]);
     let mut maze = Maze::solid(grid);
-    for [(cell, direction), (next, _)] in between(lattice.grid()) {
+    for (cell, direction, next) in lattice.grid().inner_edges() {
         if lattice.is_open(cell, direction) {
             let (from, to) = (place(cell), place(next));
             let cells = (to.x - from.x) + (to.y - from.y);

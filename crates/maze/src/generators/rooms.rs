@@ -95,13 +95,9 @@ impl Rooms {
         let grid = maze.grid();
         let region = |cell| regions[grid.index(cell)].unwrap_or_default();
         let mut walls: Vec<(Cell, Direction, [u32; 2])> = Vec::new();
-        for cell in grid.cells() {
-            for direction in [Direction::North, Direction::East] {
-                if let Some(next) = grid.neighbour(cell, direction)
-                    && region(cell) != region(next)
-                {
-                    walls.push((cell, direction, [region(cell), region(next)]));
-                }
+        for (cell, direction, next) in grid.inner_edges() {
+            if region(cell) != region(next) {
+                walls.push((cell, direction, [region(cell), region(next)]));
             }
         }
         chance::shuffle(&mut walls, rng);
