@@ -37,7 +37,7 @@ pub struct MetricAnalysis {
 }
 
 /// One metric of one row.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measured {
     /// Name of the row.
     pub row: String,
@@ -151,16 +151,10 @@ impl Measured {
         let doubt = row.missing.clone().map_or(Doubt::NoRuns, Doubt::NoData);
         Self {
             row: row.name.clone(),
-            n: 0,
             value: f64::NAN,
-            reached: Reached::Yes,
-            sd: None,
-            mean: None,
-            median: None,
-            interval: None,
             paper: Some(paper.clone()),
             verdict: Some(Verdict::unknown(doubt)),
-            contrast: None,
+            ..Self::default()
         }
     }
 }

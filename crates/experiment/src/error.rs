@@ -261,23 +261,16 @@ impl Error {
     /// Returns whether the caller's input is at fault (exit code 2) rather than the machine or the
     /// experiment (exit code 1).
     pub const fn is_bad_input(&self) -> bool {
-        matches!(
+        !matches!(
             self,
-            Self::Unknown { .. }
-                | Self::Open { .. }
-                | Self::Zero { .. }
-                | Self::FixedRuns { .. }
-                | Self::EmptyTable { .. }
-                | Self::TooManyRuns { .. }
-                | Self::Seed { .. }
-                | Self::ForeignFolder { .. }
-                | Self::Busy { .. }
-                | Self::NoReplay { .. }
-                | Self::NoRuns { .. }
-                | Self::NoChunks { .. }
-                | Self::OtherChunk { .. }
-                | Self::Incomplete { .. }
-                | Self::NotVerifiable { .. }
+            Self::Tables { .. }
+                | Self::File { .. }
+                | Self::Config { .. }
+                | Self::Summary { .. }
+                | Self::Threads { .. }
+                | Self::Run { .. }
+                | Self::Figures { .. }
+                | Self::Interrupted { .. }
         )
     }
 }

@@ -85,7 +85,7 @@ pub use seed::run_seed;
 pub use settling::{Reached, Settling};
 pub use summary::{P_TABLE, Summary, SummaryRow};
 pub use table::{
-    Comparison, Correction, Metric, PaperValue, Row, Statistic, Table, Tolerance, Within,
+    Centre, Comparison, Correction, Metric, PaperValue, Row, Statistic, Table, Tolerance, Within,
 };
 pub use tally::VerdictTally;
 pub use terminal::Terminal;

@@ -1,7 +1,7 @@
 //! Pairwise comparison of all rows of a table, as papers report it.
 
 use super::sample::Sample;
-use super::{Contrast, Correction, Doubt, Run, Statistic, Table, Verdict};
+use super::{Centre, Contrast, Correction, Doubt, Run, Statistic, Table, Verdict};
 
 /// Rows that are compared pairwise, and the metric.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,7 +47,7 @@ impl RowPair {
 impl Pairwise {
     /// Returns the comparison of every pair of measured rows, in the order of the rows.
     pub(super) fn compare(&self, table: &Table, runs: &[Run]) -> Vec<RowPair> {
-        let statistic = Statistic::Mean(self.field.clone());
+        let statistic = Statistic::Of(Centre::Mean, self.field.clone());
         let samples: Vec<(&String, Vec<f64>)> = self
             .rows
             .iter()

@@ -1,6 +1,6 @@
 //! Makes the box plots that every experiment gets.
 
-use super::{Experiment, Metric, Run, Statistic, Table};
+use super::{Centre, Experiment, Metric, Run, Statistic, Table};
 use tolman_draw::{BoxGroup, BoxPlot, Dot, Figure, PaperMark, Series};
 
 /// Returns one box plot for every field with a mean or a median as metric, in the order of tables
@@ -25,7 +25,7 @@ fn plotted(experiment: &Experiment) -> impl Iterator<Item = (String, &Table, &Me
         .flat_map(|(number, table)| {
             let mut seen: Vec<&str> = Vec::new();
             table.metrics.iter().filter_map(move |metric| {
-                let (Statistic::Mean(field) | Statistic::Median(field)) = &metric.statistic else {
+                let Statistic::Of(Centre::Mean | Centre::Median, field) = &metric.statistic else {
                     return None;
                 };
                 // Mean and median of one field share a plot.

@@ -81,7 +81,12 @@ pub(super) fn record(
             source,
         })?;
     if let Some(shown) = shown {
-        return record_shown(experiment, &shown, replays, progress);
+        let jobs: Vec<Job<'_>> = shown.iter().map(Run::job).collect();
+        let recorded = record_all(experiment, &jobs, progress)?;
+        return Ok(recorded.map(|recorded| {
+            replays.carry(recorded, 0);
+            replays
+        }));
     }
     let most = runs_per_row.min(FIRST);
     let (mut done, mut bytes) = (0, 0);
@@ -94,17 +99,9 @@ pub(super) fn record(
             .clone()
             .flat_map(|run| jobs_of(experiment, master_seed, run))
             .collect();
-        let recorded: Result<Vec<Option<Recorded>>, Error> = jobs
-            .par_iter()
-            .with_max_len(1)
-            .filter(|_| !progress.stop_requested())
-            .map(|job| record_one(experiment, job))
-            .collect();
-        let recorded = recorded?;
-        if recorded.len() < jobs.len() {
+        let Some(recorded) = record_all(experiment, &jobs, progress)? else {
             return Ok(None);
-        }
-        let recorded: Vec<Recorded> = recorded.into_iter().flatten().collect();
+        };
         replays
             .tables
             .extend(recorded.iter().map(|one| one.table.clone()));
@@ -127,30 +124,26 @@ pub(super) fn record(
     Ok(Some(replays))
 }
 
-/// Records these runs one by one, as long as their replays fit into the budget.
-fn record_shown(
+/// Returns the replays of all these runs that have one; `None` if the user stopped.
+fn record_all(
     experiment: &Experiment,
-    shown: &[Run],
-    mut replays: Replays,
+    jobs: &[Job<'_>],
     progress: &dyn Progress,
-) -> Result<Option<Replays>, Error> {
-    let recorded: Result<Vec<Option<Recorded>>, Error> = shown
+) -> Result<Option<Vec<Recorded>>, Error> {
+    let recorded: Result<Vec<Option<Recorded>>, Error> = jobs
         .par_iter()
         .with_max_len(1)
         .filter(|_| !progress.stop_requested())
-        .map(|run| record_one(experiment, &run.job()))
+        .map(|job| record_one(experiment, job))
         .collect();
     let recorded = recorded?;
-    if recorded.len() < shown.len() {
-        return Ok(None);
-    }
-    replays.carry(recorded.into_iter().flatten(), 0);
-    Ok(Some(replays))
+    let is_whole = recorded.len() == jobs.len();
+    Ok(is_whole.then(|| recorded.into_iter().flatten().collect()))
 }
 
 impl Replays {
     /// Adds the recorded runs that fit, one by one, if others already take `bytes`.
-    fn carry(&mut self, recorded: impl Iterator<Item = Recorded>, mut bytes: usize) {
+    fn carry(&mut self, recorded: impl IntoIterator<Item = Recorded>, mut bytes: usize) {
         for one in recorded {
             self.tables.insert(one.table.clone());
             if bytes + one.bytes() <= self.budget {

@@ -4,7 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use super::settling::settles;
-use super::{Reached, Run, Settling, Statistic};
+use super::{Centre, Reached, Run, Settling, Statistic};
 use tolman_stats::ConfidenceInterval;
 
 /// Number of resamples of the bootstrap.
@@ -19,12 +19,8 @@ pub(super) enum Sample<'a> {
     Flags { flags: Vec<bool>, whole: f64 },
     /// One number for each run.
     Numbers { numbers: Vec<f64>, centre: Centre },
-    /// A numerator and a denominator for each run.
-    Pairs(Vec<(f64, f64)>),
-    /// Two numbers for each run, whose spreads are compared.
-    Spreads(Vec<(f64, f64)>),
-    /// Squared error of each run's forecast, and the outcome, 1 or 0. Both outcomes occur.
-    Forecasts(Vec<(f64, f64)>),
+    /// Two numbers for each run.
+    Pairs(Vec<(f64, f64)>, OfPairs),
     /// A curve for each run, and the limit that their mean has to stay below.
     Curves {
         curves: Vec<&'a [f64]>,
@@ -33,15 +29,15 @@ pub(super) enum Sample<'a> {
     },
 }
 
-/// Statistic that turns numbers into one value.
+/// Statistic that turns pairs of numbers into one value.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Centre {
-    Mean,
-    Median,
-    Quantile(f64),
-    Least,
-    Greatest,
-    Total,
+pub(super) enum OfPairs {
+    /// Ratio of the sums: numerators over denominators.
+    Ratio,
+    /// Ratio of the standard deviations.
+    RatioOfSpreads,
+    /// Skill of forecasts: squared errors, with the outcomes, 1 or 0. Both outcomes occur.
+    Skill,
 }
 
 /// Returns 1 − the mean squared error over the variance of the outcomes.
@@ -85,21 +81,16 @@ impl<'a> Sample<'a> {
         let sample = match statistic {
             Statistic::Percent(field) => flags(field, 100.0),
             Statistic::Count { field, whole } => flags(field, f64::from(*whole)),
-            Statistic::Mean(field) => numbers(field, Centre::Mean),
-            Statistic::Median(field) => numbers(field, Centre::Median),
-            Statistic::Least(field) => numbers(field, Centre::Least),
-            Statistic::Greatest(field) => numbers(field, Centre::Greatest),
-            Statistic::Total(field) => numbers(field, Centre::Total),
-            Statistic::Quantile { field, share } => numbers(field, Centre::Quantile(*share)),
+            Statistic::Of(centre, field) => numbers(field, *centre),
             Statistic::Ratio { over, under } => {
                 let pairs = runs.filter_map(|run| pair(run, over, run, under));
-                Self::Pairs(pairs.collect())
+                Self::Pairs(pairs.collect(), OfPairs::Ratio)
             }
             Statistic::RatioOfSpreads { over, under } => {
                 let pairs = runs.filter_map(|run| pair(run, over, run, under));
                 let pairs: Vec<(f64, f64)> = pairs.collect();
-                ratio_of_spreads(&pairs)
-                    .map_or_else(|| Self::Spreads(Vec::new()), |_| Self::Spreads(pairs))
+                ratio_of_spreads(&pairs)?;
+                Self::Pairs(pairs, OfPairs::RatioOfSpreads)
             }
             Statistic::Skill { error, outcome } => {
                 let forecasts: Vec<(f64, f64)> = runs
@@ -112,14 +103,14 @@ impl<'a> Sample<'a> {
                 if came == 0 || came == forecasts.len() {
                     return None;
                 }
-                Self::Forecasts(forecasts)
+                Self::Pairs(forecasts, OfPairs::Skill)
             }
             Statistic::Multiple { field, .. } => {
                 let pairs = runs.filter_map(|run| {
                     let place = others.binary_search_by_key(&run.run, |other| other.run);
                     pair(run, field, others[place.ok()?], field)
                 });
-                Self::Pairs(pairs.collect())
+                Self::Pairs(pairs.collect(), OfPairs::Ratio)
             }
             Statistic::Settling(settling) => {
                 let measured = runs.filter(|run| is_measured(settling, run));
@@ -140,7 +131,7 @@ impl<'a> Sample<'a> {
         match self {
             Self::Flags { flags, .. } => flags.len(),
             Self::Numbers { numbers, .. } => numbers.len(),
-            Self::Pairs(pairs) | Self::Spreads(pairs) | Self::Forecasts(pairs) => pairs.len(),
+            Self::Pairs(pairs, _) => pairs.len(),
             Self::Curves { curves, .. } => curves.len(),
         }
     }
@@ -162,10 +153,11 @@ impl<'a> Sample<'a> {
                 Centre::Greatest => numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max),
                 Centre::Total => numbers.iter().sum(),
             },
-            Self::Pairs(pairs) => ratio_of_sums(pairs),
-            // Such a sample exists only if the denominators have a spread.
-            Self::Spreads(pairs) => ratio_of_spreads(pairs).unwrap_or(f64::NAN),
-            Self::Forecasts(forecasts) => skill(forecasts),
+            Self::Pairs(pairs, of) => match of {
+                OfPairs::Ratio => ratio_of_sums(pairs),
+                OfPairs::RatioOfSpreads => ratio_of_spreads(pairs).unwrap_or(f64::NAN),
+                OfPairs::Skill => skill(pairs),
+            },
             Self::Curves {
                 curves,
                 step,
@@ -195,15 +187,10 @@ impl<'a> Sample<'a> {
     fn spread(&self) -> Option<&[f64]> {
         match self {
             Self::Numbers {
-                centre: Centre::Quantile(_) | Centre::Least | Centre::Greatest | Centre::Total,
-                ..
-            } => None,
-            Self::Numbers { numbers, .. } => Some(numbers),
-            Self::Flags { .. }
-            | Self::Pairs(_)
-            | Self::Spreads(_)
-            | Self::Forecasts(_)
-            | Self::Curves { .. } => None,
+                numbers,
+                centre: Centre::Mean | Centre::Median,
+            } => Some(numbers),
+            _ => None,
         }
     }
 
@@ -224,8 +211,8 @@ impl<'a> Sample<'a> {
                     return None;
                 }
             },
-            Self::Spreads(_) | Self::Forecasts(_) => return None,
-            Self::Pairs(pairs) => {
+            Self::Pairs(_, OfPairs::RatioOfSpreads | OfPairs::Skill) => return None,
+            Self::Pairs(pairs, OfPairs::Ratio) => {
                 tolman_stats::bca_interval(pairs, ratio_of_sums, RESAMPLES, LEVEL, rng)
             }
             Self::Curves {
@@ -270,9 +257,7 @@ impl<'a> Sample<'a> {
                 numbers: drawn(numbers, count, rng),
                 centre: *centre,
             },
-            Self::Pairs(pairs) => Self::Pairs(drawn(pairs, count, rng)),
-            Self::Spreads(pairs) => Self::Spreads(drawn(pairs, count, rng)),
-            Self::Forecasts(pairs) => Self::Forecasts(drawn(pairs, count, rng)),
+            Self::Pairs(pairs, of) => Self::Pairs(drawn(pairs, count, rng), *of),
             Self::Curves {
                 curves,
                 step,
@@ -292,13 +277,13 @@ impl<'a> Sample<'a> {
             Self::Flags { flags, .. } => zeros_and_ones(flags),
             Self::Numbers { numbers, .. } => numbers.clone(),
             // A run with a denominator of 0 has no ratio.
-            Self::Pairs(pairs) => pairs
+            Self::Pairs(pairs, OfPairs::Ratio) => pairs
                 .iter()
                 .filter(|(_, under)| *under > 0.0)
                 .map(|(over, under)| over / under)
                 .collect(),
             // Only several runs together have a settling mean curve, a spread or a skill.
-            Self::Curves { .. } | Self::Spreads(_) | Self::Forecasts(_) => Vec::new(),
+            Self::Curves { .. } | Self::Pairs(..) => Vec::new(),
         }
     }
 }
@@ -370,7 +355,10 @@ mod tests {
             centre: Centre::Quantile(0.25),
         };
         // The numerators spread twice as far as the denominators.
-        let spreads = Sample::Spreads(vec![(10.0, 3.0), (14.0, 5.0), (18.0, 7.0)]);
+        let spreads = Sample::Pairs(
+            vec![(10.0, 3.0), (14.0, 5.0), (18.0, 7.0)],
+            OfPairs::RatioOfSpreads,
+        );
         for sample in [quarter, spreads] {
             assert!((sample.value().0 - 2.0).abs() < 1e-12, "{sample:?}");
             assert_eq!(sample.interval(1), None);

@@ -25,9 +25,10 @@ pub struct Settling {
 }
 
 /// Whether the event that a metric waits for happened.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Reached {
     /// The event happened.
+    #[default]
     Yes,
     /// The event did not happen before the end: the value is a lower bound.
     No,

@@ -447,36 +447,35 @@ impl Metric {
     /// Returns the mean of the numeric field that has the metric's name.
     pub fn mean(name: impl Into<String>) -> Self {
         let field = name.into();
-        Self::new(field.clone(), Statistic::Mean(field))
+        Self::new(field.clone(), Statistic::Of(Centre::Mean, field))
     }
 
     /// Returns the median of a numeric field by definition R-7. Its interval is that of order
     /// statistics.
     pub fn median(name: impl Into<String>, field: impl Into<String>) -> Self {
-        Self::new(name, Statistic::Median(field.into()))
+        Self::new(name, Statistic::Of(Centre::Median, field.into()))
     }
 
     /// Returns the quantile of a numeric field below which `share` of the runs are, 0 … 1, by
     /// definition R-7.
     pub fn quantile(name: impl Into<String>, field: impl Into<String>, share: f64) -> Self {
-        let field = field.into();
-        Self::new(name, Statistic::Quantile { field, share })
+        Self::new(name, Statistic::Of(Centre::Quantile(share), field.into()))
     }
 
     /// Returns the minimum of a numeric field.
     pub fn least(name: impl Into<String>, field: impl Into<String>) -> Self {
-        Self::new(name, Statistic::Least(field.into()))
+        Self::new(name, Statistic::Of(Centre::Least, field.into()))
     }
 
     /// Returns the maximum of a numeric field.
     pub fn greatest(name: impl Into<String>, field: impl Into<String>) -> Self {
-        Self::new(name, Statistic::Greatest(field.into()))
+        Self::new(name, Statistic::Of(Centre::Greatest, field.into()))
     }
 
     /// Returns the sum over all runs of the numeric field that has the metric's name.
     pub fn total(name: impl Into<String>) -> Self {
         let field = name.into();
-        Self::new(field.clone(), Statistic::Total(field)).decimals(0)
+        Self::new(field.clone(), Statistic::Of(Centre::Total, field)).decimals(0)
     }
 
     /// Returns the percentage of runs in which the flag named `field` is set.
@@ -611,23 +610,8 @@ impl Metric {
 pub enum Statistic {
     /// 100 × the share of runs whose flag is set, a field of [`Kind::Flag`](crate::Kind::Flag).
     Percent(String),
-    /// The mean of a numeric field.
-    Mean(String),
-    /// The median of a numeric field.
-    Median(String),
-    /// A quantile of a numeric field, without interval.
-    Quantile {
-        /// Name of a numeric field.
-        field: String,
-        /// Share of the runs that are below, 0 … 1.
-        share: f64,
-    },
-    /// The minimum of a numeric field, without interval.
-    Least(String),
-    /// The maximum of a numeric field, without interval.
-    Greatest(String),
-    /// The sum of a numeric field, without interval.
-    Total(String),
+    /// A statistic of a numeric field.
+    Of(Centre, String),
     /// `whole` × the share of runs whose flag is set.
     Count {
         /// Name of a field of [`Kind::Flag`](crate::Kind::Flag).
@@ -667,6 +651,24 @@ pub enum Statistic {
     Settling(Settling),
 }
 
+/// Statistic that turns the numbers of a row's runs into one value. Only the first two have
+/// intervals.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Centre {
+    /// The mean.
+    Mean,
+    /// The median.
+    Median,
+    /// The quantile below which this share of the runs is, 0 … 1.
+    Quantile(f64),
+    /// The minimum.
+    Least,
+    /// The maximum.
+    Greatest,
+    /// The sum.
+    Total,
+}
+
 impl Statistic {
     /// Returns the fields that the statistic reads, each with the types that it may have.
     pub(super) fn fields(&self) -> Vec<(&str, &'static [Kind])> {
@@ -674,13 +676,7 @@ impl Statistic {
         const NUMERIC: &[Kind] = &[Kind::Count, Kind::Number];
         match self {
             Self::Percent(field) | Self::Count { field, .. } => vec![(field, FLAG)],
-            Self::Mean(field)
-            | Self::Median(field)
-            | Self::Least(field)
-            | Self::Greatest(field)
-            | Self::Total(field)
-            | Self::Quantile { field, .. }
-            | Self::Multiple { field, .. } => vec![(field, NUMERIC)],
+            Self::Of(_, field) | Self::Multiple { field, .. } => vec![(field, NUMERIC)],
             Self::Ratio { over, under } | Self::RatioOfSpreads { over, under } => {
                 vec![(over, NUMERIC), (under, NUMERIC)]
             }

@@ -3,7 +3,7 @@
 use core::fmt::Write;
 
 use super::{
-    Analysis, Finding, Measured, Metric, MetricAnalysis, Reached, Statistic, TableAnalysis,
+    Analysis, Centre, Finding, Measured, Metric, MetricAnalysis, Reached, Statistic, TableAnalysis,
 };
 
 /// Whether text is coloured.
@@ -77,7 +77,7 @@ pub(crate) fn value_with_spread(metric: &Metric, value: f64, sd: Option<f64>) ->
 /// Returns our value: a mean with its spread, any other value alone, and a lower bound as `> 2000`.
 pub(crate) fn ours(metric: &Metric, measured: &Measured) -> String {
     let sd = match metric.statistic {
-        Statistic::Mean(_) => measured.sd,
+        Statistic::Of(Centre::Mean, _) => measured.sd,
         _ => None,
     };
     let value = value_with_spread(metric, measured.value, sd);

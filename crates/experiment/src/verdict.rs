@@ -3,7 +3,9 @@
 use core::fmt;
 
 use super::sample::{LEVEL, Sample};
-use super::{Better, Metric, PaperValue, Reached, Row, Statistic, Table, Tolerance, Within};
+use super::{
+    Better, Centre, Metric, PaperValue, Reached, Row, Statistic, Table, Tolerance, Within,
+};
 use tolman_stats::{
     ConfidenceInterval, SampleSummary, mean_difference_interval, rate_difference_interval,
 };
@@ -231,7 +233,7 @@ impl Case<'_> {
         if sample.len() < 2 {
             return Err(Doubt::OneRun);
         }
-        let is_mean = matches!(self.metric.statistic, Statistic::Mean(_));
+        let is_mean = matches!(self.metric.statistic, Statistic::Of(Centre::Mean, _));
         let spreads = paper.sd.zip(sample.sd()).filter(|_| is_mean);
         let interval = match spreads {
             Some((theirs, ours)) if paper_runs > 1 => {
@@ -287,7 +289,6 @@ fn half_a_digit(printed: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::sample::Centre;
     use super::*;
     use crate::record;
 

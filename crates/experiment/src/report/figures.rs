@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use super::header::counted;
 use tolman_draw::Figure;
 
 /// Returns figures side by side, as far as there is room.
@@ -15,15 +16,10 @@ pub(super) fn grid(figures: &[&Figure]) -> Markup {
 
 /// Returns figures in a fold that names them. `more` says that others are shown before it.
 pub(super) fn folded(figures: &[&Figure], more: bool) -> Markup {
-    let count = match (figures.len(), more) {
-        (1, true) => "1 more figure".to_owned(),
-        (1, false) => "1 figure".to_owned(),
-        (count, true) => format!("{count} more figures"),
-        (count, false) => format!("{count} figures"),
-    };
+    let noun = if more { "more figure" } else { "figure" };
     html! {
         @if !figures.is_empty() {
-            details.more { summary { (count) } (grid(figures)) }
+            details.more { summary { (counted(figures.len(), noun)) } (grid(figures)) }
         }
     }
 }

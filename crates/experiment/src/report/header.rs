@@ -2,7 +2,7 @@
 
 use maud::{Markup, html};
 
-use crate::{Contrast, ExperimentOutcome, VerdictTally, duration};
+use crate::{ExperimentOutcome, VerdictTally, duration};
 
 /// Corrected p-value below which there is a difference.
 pub(super) const SIGNIFICANT: f64 = 0.05;
@@ -39,8 +39,9 @@ pub(super) fn header(outcome: &ExperimentOutcome) -> Markup {
 pub(super) fn cards(outcome: &ExperimentOutcome) -> Markup {
     let values = || outcome.analysis.values().map(|(_, _, measured)| measured);
     let told = outcome.analysis.tally();
-    let differs = |contrast: Contrast| contrast.p.value() < SIGNIFICANT;
-    let (differing, contrasts) = tally(values().filter_map(|one| one.contrast.map(differs)));
+    let contrasts = || values().filter_map(|one| one.contrast);
+    let differing = contrasts().filter(|contrast| contrast.p.value() < SIGNIFICANT);
+    let (differing, contrasts) = (differing.count(), contrasts().count());
     let total = outcome.runs.len() as u64;
     html! {
         div.cards {
@@ -92,13 +93,6 @@ fn others(told: &VerdictTally) -> String {
         ..
     } = told;
     format!("of the paper's values; {better}{differs} differ, {cannot_tell} cannot tell")
-}
-
-/// Returns how many of the values are true, and how many values there are.
-fn tally(these: impl Iterator<Item = bool>) -> (usize, usize) {
-    these.fold((0, 0), |(hold, all), holds| {
-        (hold + usize::from(holds), all + 1)
-    })
 }
 
 /// Returns the number of runs of each row, if all have the same number.

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::replays;
 
-use crate::{ExperimentOutcome, Metric, RESAMPLES, Statistic, Within, heading};
+use crate::{Centre, ExperimentOutcome, Metric, RESAMPLES, Statistic, Within, heading};
 
 /// Returns the notes at the end of the page. They explain only what the page shows.
 pub(super) fn notes(outcome: &ExperimentOutcome) -> Markup {
@@ -17,8 +17,8 @@ pub(super) fn notes(outcome: &ExperimentOutcome) -> Markup {
     let has = |wanted: fn(&Statistic) -> bool| metrics.iter().any(|m| wanted(&m.statistic));
     let percent = has(|of| matches!(of, Statistic::Percent(_)));
     let count = has(|of| matches!(of, Statistic::Count { .. }));
-    let median = has(|of| matches!(of, Statistic::Median(_)));
-    let mean = has(|of| matches!(of, Statistic::Mean(_)));
+    let median = has(|of| matches!(of, Statistic::Of(Centre::Median, _)));
+    let mean = has(|of| matches!(of, Statistic::Of(Centre::Mean, _)));
     let ratio = has(|of| matches!(of, Statistic::Ratio { .. } | Statistic::Multiple { .. }));
     let settling = has(|of| matches!(of, Statistic::Settling(_)));
     let compared = analysis

@@ -6,8 +6,8 @@ use super::folds::{Part, Shown};
 use super::header::{SIGNIFICANT, counted};
 use super::{figures, pairs};
 use crate::{
-    Comparison, Measured, Metric, MetricAnalysis, Reached, Statistic, TableAnalysis, Verdict,
-    VerdictTally, heading, ours, value_with_spread,
+    Centre, Comparison, Measured, Metric, MetricAnalysis, Reached, Statistic, TableAnalysis,
+    Verdict, VerdictTally, heading, ours, value_with_spread,
 };
 use tolman_draw::Series;
 
@@ -136,7 +136,7 @@ impl<'a> Columns<'a> {
             .map(|metric| &metric.metric.statistic);
         Self {
             paper: rows.any(|row| row.paper.is_some()),
-            also: metrics.any(|s| matches!(s, Statistic::Mean(_) | Statistic::Median(_))),
+            also: metrics.any(|s| matches!(s, Statistic::Of(Centre::Mean | Centre::Median, _))),
             comparison: analysis.table.comparison.as_ref(),
         }
     }
@@ -282,10 +282,10 @@ fn told(metric: &Metric, verdict: &Verdict) -> String {
 fn also(metric: &Metric, measured: &Measured) -> Option<String> {
     let decimals = metric.places();
     match metric.statistic {
-        Statistic::Mean(_) => measured
+        Statistic::Of(Centre::Mean, _) => measured
             .median
             .map(|value| format!("median {value:.decimals$}")),
-        Statistic::Median(_) => {
+        Statistic::Of(Centre::Median, _) => {
             let mean = value_with_spread(metric, measured.mean?, measured.sd);
             Some(format!("mean {mean}"))
         }
