@@ -60,7 +60,7 @@ fn a_map_in_a_file_is_right_exactly_if_the_arena_called_it_right() {
                 learned.judgement
             );
             let view = system.map(&text).unwrap().view().unwrap();
-            let truth = TrueGraph::of(&maze, system.places());
+            let truth = TrueGraph::of(&maze, system.facts().places);
             let again = text.truth.unwrap().judge(&view, &truth);
             assert_eq!(again, learned.judgement, "{what}");
             maps += 1;

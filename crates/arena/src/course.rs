@@ -325,11 +325,7 @@ impl Course {
     /// factor of up to √2.
     #[must_use]
     pub fn shortest_metres(&self) -> Option<f64> {
-        if let Some(free) = &self.free {
-            return self.shortest_metres_from(free.start?.position);
-        }
-        let (start, _) = self.maze.start()?;
-        Some(f64::from(self.steps_from(start)?) * self.corridor_width)
+        self.shortest_metres_from(self.start().ok()?.position)
     }
 
     /// Returns the length of the shortest way to the destination from the cell of `position`, m.
@@ -427,9 +423,10 @@ impl Course {
     }
 }
 
-fn pick<T: Copy>(all: &[T], rng: &mut impl Rng) -> Option<T> {
+pub(crate) fn pick<T: Copy>(all: &[T], rng: &mut impl Rng) -> Option<T> {
     if all.is_empty() {
         return None;
     }
-    Some(all[rng.random_range(0..all.len() as u32) as usize])
+    all.get(rng.random_range(0..all.len() as u32) as usize)
+        .copied()
 }

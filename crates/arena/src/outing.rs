@@ -41,7 +41,7 @@ pub trait Outing: InRun {
     fn scan(&self) -> Option<&Scan>;
 
     /// Limits the robot to this many further time steps.
-    fn allow(&mut self, _steps: u32) {}
+    fn allow(&mut self, steps: u32);
 
     /// Makes the next action of `task`.
     ///
@@ -65,34 +65,24 @@ pub trait Outing: InRun {
     fn visits(&self) -> Vec<Option<u32>>;
 
     /// Returns the number of places the system came to: as many as [`visits`](Self::visits) names.
-    fn visit_count(&self) -> usize {
-        self.visits().len()
-    }
+    fn visit_count(&self) -> usize;
 
     /// Returns the probability by the system that its map is right, 0 … 1; `None` if it does not
     /// weigh that.
-    fn certainty(&self) -> Option<f64> {
-        None
-    }
+    fn certainty(&self) -> Option<f64>;
 
     /// Returns why the map may be wrong or unfinished by the system's own account; `None` if it
     /// sees no reason.
-    fn doubt(&self) -> Option<String> {
-        None
-    }
+    fn doubt(&self) -> Option<String>;
 
     /// Returns the size of the system's map, bytes; `None` if it is unknown.
-    fn map_bytes(&self) -> Option<usize> {
-        None
-    }
+    fn map_bytes(&self) -> Option<usize>;
 
     /// Measures from now on how long the system thinks.
-    fn measure(&mut self, _stopwatch: Stopwatch) {}
+    fn measure(&mut self, stopwatch: Stopwatch);
 
     /// Returns the system's own computing time while it was measured, without the robot's.
-    fn thinking(&self) -> Duration {
-        Duration::ZERO
-    }
+    fn thinking(&self) -> Duration;
 
     /// Lifts the robot, puts it down at `pose` and tells the system. Returns whether the system can
     /// continue.
@@ -105,39 +95,29 @@ pub trait Outing: InRun {
     ///
     /// # Errors
     /// If the robot cannot stand there.
-    fn lift(&mut self, _pose: Pose) -> Result<(), BoxError> {
-        Err("its robot is not lifted".into())
-    }
+    fn lift(&mut self, pose: Pose) -> Result<(), BoxError>;
 
     /// Exchanges the outing's system, with all that it has learned, for that of another outing.
     ///
     /// # Errors
     /// If they are not of one kind, on robots of one kind.
-    fn exchange_systems(&mut self, _other: &mut dyn Outing) -> Result<(), BoxError> {
-        Err("its system is not exchanged".into())
-    }
+    fn exchange_systems(&mut self, other: &mut dyn Outing) -> Result<(), BoxError>;
 
-    /// Returns the system to exchange, or `None` if the outing does not exchange it.
-    fn system_mut(&mut self) -> Option<&mut dyn Any> {
-        None
-    }
+    /// Returns the system to exchange.
+    fn system_mut(&mut self) -> &mut dyn Any;
 
     /// Opens or shuts a door of the world.
     ///
     /// # Errors
     /// If there is no such door.
-    fn set_door(&mut self, name: &str, _state: DoorState) -> Result<(), BoxError> {
-        Err(format!("its door {name} cannot be opened or shut").into())
-    }
+    fn set_door(&mut self, name: &str, state: DoorState) -> Result<(), BoxError>;
 
     /// Returns the true positions of the map's places, as far as they are known, for pictures.
     /// O(map).
     fn sites(&self) -> BTreeMap<u32, Point>;
 
     /// Returns the number of the map that the system chose from those it was given, counted from 0.
-    fn chosen(&self) -> usize {
-        0
-    }
+    fn chosen(&self) -> usize;
 
     /// Returns the map as a file; `None` if the system keeps none, or has none yet.
     ///
@@ -288,6 +268,14 @@ impl Depicted for Pioneer2dx {
 
 impl Depicted for Epuck {
     const NAME: &'static str = "e-puck";
+}
+
+/// Returns a map whose origin is moved to `world_from_map`.
+pub(crate) fn moved(mut map: MapView, world_from_map: Pose) -> MapView {
+    for place in &mut map.places {
+        place.position = place.position.map(|at| world_from_map.transform(at));
+    }
+    map
 }
 
 /// Any [`System`] with any simulated robot, as an [`Outing`].
@@ -479,13 +467,11 @@ where
     }
 
     fn map(&self) -> MapView {
-        let mut map = self.system.map();
-        if let Some(world_from_map) = self.world_from_map {
-            for place in &mut map.places {
-                place.position = place.position.map(|at| world_from_map.transform(at));
-            }
+        let map = self.system.map();
+        match self.world_from_map {
+            Some(world_from_map) => moved(map, world_from_map),
+            None => map,
         }
-        map
     }
 
     fn belief(&self) -> Vec<Guess> {
@@ -542,7 +528,7 @@ where
     }
 
     fn exchange_systems(&mut self, other: &mut dyn Outing) -> Result<(), BoxError> {
-        let system = other.system_mut().and_then(|system| system.downcast_mut());
+        let system = other.system_mut().downcast_mut();
         mem::swap(
             &mut self.system,
             system.ok_or("the systems are not of one kind")?,
@@ -550,8 +536,8 @@ where
         Ok(())
     }
 
-    fn system_mut(&mut self) -> Option<&mut dyn Any> {
-        Some(&mut self.system)
+    fn system_mut(&mut self) -> &mut dyn Any {
+        &mut self.system
     }
 
     fn set_door(&mut self, name: &str, state: DoorState) -> Result<(), BoxError> {

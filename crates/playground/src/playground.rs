@@ -74,12 +74,13 @@ impl Playground {
     /// Returns the systems that can be chosen: all that learn a map, those that work best first.
     #[must_use]
     pub fn systems() -> Vec<SystemChoice> {
-        let choice = |system: &dyn SystemEntry| SystemChoice {
-            name: system.title(),
-            about: system.about(),
-            is_paper: system.is_paper(),
-        };
-        let mut systems: Vec<SystemChoice> = Registry::current().learners().map(choice).collect();
+        let facts = Registry::current().learners().map(SystemEntry::facts);
+        let choices = facts.map(|facts| SystemChoice {
+            name: facts.title,
+            about: facts.about,
+            is_paper: facts.is_paper,
+        });
+        let mut systems: Vec<SystemChoice> = choices.collect();
         systems.sort_by_key(|choice| choice.is_paper);
         systems
     }

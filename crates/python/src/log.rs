@@ -1,7 +1,7 @@
 use std::path::PathBuf;
 
 use pyo3::prelude::*;
-use tolman_arena::registry::{Registry, SystemEntry};
+use tolman_arena::registry::Registry;
 use tolman_papers::real::{MappedLog, RobotLog};
 
 use crate::errors::{reasons, unread, wrong};
@@ -17,10 +17,10 @@ use crate::map::PyMap;
 pub(crate) fn map_log(py: Python<'_>, path: PathBuf, system: &str) -> PyResult<PyMap> {
     let registry = Registry::current();
     let found = registry.system(system);
-    let mapper = found.and_then(SystemEntry::log_mapper);
+    let mapper = found.and_then(|system| system.facts().log_mapper);
     let Some(mapper) = mapper else {
         let maps = registry.systems.iter();
-        let maps = maps.filter(|system| system.log_mapper().is_some());
+        let maps = maps.filter(|system| system.facts().log_mapper.is_some());
         let names: Vec<&str> = maps.map(|system| system.name()).collect();
         return Err(wrong(format!(
             "system is '{system}' but has to be one of {}",

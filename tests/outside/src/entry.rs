@@ -1,6 +1,6 @@
 //! The entry of the system: how it is put on any laser robot, and its map's file.
 
-use tolman::registry::{MapText, Setup, SystemEntry};
+use tolman::registry::{MapText, Setup, SystemEntry, SystemFacts};
 use tolman_arena::{BoxError, Outing, Sent};
 use tolman_systems::{Actor, MapFiles};
 
@@ -11,13 +11,13 @@ pub struct PacesEntry;
 pub const FILES: MapFiles = MapFiles { system: "paces" };
 
 impl SystemEntry for PacesEntry {
-    fn name(&self) -> &'static str {
-        FILES.system
-    }
-
-    /// Its map has paces, and no places.
-    fn claims(&self) -> bool {
-        false
+    fn facts(&self) -> SystemFacts {
+        SystemFacts {
+            drives: true,
+            // Its map has paces, and no places.
+            claims: false,
+            ..SystemFacts::new(FILES.system)
+        }
     }
 
     fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
@@ -28,10 +28,6 @@ impl SystemEntry for PacesEntry {
         let keep =
             move |actor: &Actor<Paces>, _: &_| Ok(Some(FILES.write(&origin, actor.brain())?));
         Ok(Box::new(sent.keeping(keep)))
-    }
-
-    fn drives(&self) -> bool {
-        true
     }
 
     fn driver(&self, maps: &[MapText], setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {

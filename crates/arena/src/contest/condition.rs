@@ -10,7 +10,7 @@ use tolman_sim::robots::{
 use tolman_sim::{Door, DoorState, Material, WorldError};
 use tolman_systems::stream;
 
-use crate::course::Course;
+use crate::course::{Course, pick};
 use crate::diktiometry::SurveyorConfig;
 use crate::pioneer::without_noise;
 use crate::registry::slug;
@@ -70,17 +70,18 @@ impl Condition {
     /// Returns the name in tables.
     #[must_use]
     pub fn name(self) -> String {
-        match self {
-            Self::AsMade => "as made".to_owned(),
-            Self::Wheels(percent) => format!("wheels {percent}"),
-            Self::CompassOffset => "compass offset".to_owned(),
-            Self::ConstantOdometry => "constant odometry".to_owned(),
-            Self::FreshOdometry => "fresh odometry".to_owned(),
-            Self::Doors => "doors".to_owned(),
-            Self::Kidnapping => "kidnapping".to_owned(),
-            Self::DropOuts => "drop-outs".to_owned(),
-            Self::Flawless => "flawless".to_owned(),
-        }
+        let name = match self {
+            Self::Wheels(percent) => return format!("wheels {percent}"),
+            Self::AsMade => "as made",
+            Self::CompassOffset => "compass offset",
+            Self::ConstantOdometry => "constant odometry",
+            Self::FreshOdometry => "fresh odometry",
+            Self::Doors => "doors",
+            Self::Kidnapping => "kidnapping",
+            Self::DropOuts => "drop-outs",
+            Self::Flawless => "flawless",
+        };
+        name.to_owned()
     }
 
     /// Returns the condition of a name, as in tables or as typed: `compass-offset` is compass
@@ -206,13 +207,7 @@ impl Condition {
             maze.is_open(*cell, *way) && shut.reachable().count() == count
         };
         let doors: Vec<(Cell, Direction)> = openings.filter(is_needless).collect();
-        match doors.len() {
-            0 => None,
-            count => {
-                let which = stream(seed, DOOR_STREAM).random_range(0..count as u32);
-                doors.get(which as usize).copied()
-            }
-        }
+        pick(&doors, &mut stream(seed, DOOR_STREAM))
     }
 
     fn odometry(self) -> Fault {

@@ -130,14 +130,8 @@ impl Evidence {
     /// Returns the evidence of a map that was continued, as `later` has it.
     #[must_use]
     pub fn then(mut self, later: Self) -> Self {
-        let known: BTreeSet<u32> = self.stands_for.iter().map(|(place, ..)| *place).collect();
-        let new = later.stands_for.into_iter();
-        self.stands_for
-            .extend(new.filter(|(place, ..)| !known.contains(place)));
-        let known: BTreeSet<u32> = self.founded.iter().map(|(place, _)| *place).collect();
-        let new = later.founded.into_iter();
-        self.founded
-            .extend(new.filter(|(place, _)| !known.contains(place)));
+        add_new(&mut self.stands_for, later.stands_for, |(place, ..)| *place);
+        add_new(&mut self.founded, later.founded, |(place, _)| *place);
         self.way.extend(later.way);
         self.purity = match (self.purity, later.purity) {
             (Some(one), Some(other)) => Some(one.min(other)),
@@ -200,4 +194,11 @@ impl Evidence {
             )
         }))
     }
+}
+
+/// Adds those that `all` has none of the same place of.
+fn add_new<T>(all: &mut Vec<T>, later: Vec<T>, place: fn(&T) -> u32) {
+    let known: BTreeSet<u32> = all.iter().map(place).collect();
+    let new = later.into_iter();
+    all.extend(new.filter(|one| !known.contains(&place(one))));
 }

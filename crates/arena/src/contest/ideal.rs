@@ -1,4 +1,3 @@
-use alloc::borrow::Cow;
 use alloc::collections::BTreeMap;
 
 use tolman_geom::Pose;
@@ -6,6 +5,7 @@ use tolman_maze::{Cell, Direction, Maze};
 use tolman_robot::Landmark;
 
 use super::paint::Paint;
+use super::play::Measured;
 use super::whereabouts::Squares;
 use crate::cpm::landmark_at;
 
@@ -16,8 +16,8 @@ use crate::cpm::landmark_at;
 /// several cells straight on, more than any robot does. If the robot sees colours, it sees the
 /// colours of all walls around.
 #[derive(Clone, Debug)]
-pub(super) struct IdealObserver<'a> {
-    pub(super) maze: Cow<'a, Maze>,
+pub(super) struct IdealObserver {
+    pub(super) maze: Maze,
     /// Whether the observer knows where north is.
     pub(super) has_compass: bool,
     /// Number of cells that the observer sees through an opening.
@@ -42,15 +42,7 @@ struct Candidate {
     at: Cell,
 }
 
-impl IdealObserver<'_> {
-    /// Returns the observer with a drawing of its own.
-    pub(super) fn into_owned(self) -> IdealObserver<'static> {
-        IdealObserver {
-            maze: Cow::Owned(self.maze.into_owned()),
-            ..self
-        }
-    }
-
+impl IdealObserver {
     /// Returns the [chance](Self::chance) for a robot that drove along `path`. It was put down in
     /// the middle of a cell, and looked out of it.
     pub(super) fn after(&self, squares: Squares, start: (Cell, Direction), path: &[Pose]) -> f64 {
@@ -94,12 +86,7 @@ impl IdealObserver<'_> {
     }
 
     fn starts(&self, way: Direction) -> Vec<Candidate> {
-        let goals = self.maze.goals();
-        let cells = self.maze.reachable().filter(|cell| !goals.contains(cell));
-        let ways = cells.flat_map(|cell| {
-            let ways = self.maze.neighbours(cell);
-            ways.map(move |(out, _)| (cell, out))
-        });
+        let ways = self.maze.ways_out().into_iter();
         let starts = ways.map(|(at, out)| Candidate {
             turned: (out.index() + 4 - way.index()) % 4,
             at,
@@ -168,7 +155,7 @@ mod tests {
     fn chance(text: &str, has_compass: bool, way: Direction, cells: &[(u16, u16)]) -> f64 {
         let maze = tolman_maze::read(text).unwrap().maze;
         let observer = IdealObserver {
-            maze: Cow::Borrowed(&maze),
+            maze,
             has_compass,
             reach: 0,
             paint: Paint::default(),

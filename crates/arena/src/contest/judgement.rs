@@ -6,6 +6,7 @@ use tolman_robot::{MapPlace, MapView};
 
 use super::true_graph::TrueGraph;
 use super::whereabouts::{PlaceVisit, Squares, offset};
+use crate::diktiometry::share;
 
 /// Quality of a learned map, compared with the truth. Shares are from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -307,14 +308,6 @@ impl<'a> Chart<'a> {
         let walked = fitting.iter().find(|number| gone.contains(number));
         let best = walked.or(fitting.first());
         best.map_or(Matched::Nothing, |way| Matched::Way(*way))
-    }
-}
-
-fn share(part: usize, whole: usize) -> f64 {
-    if whole == 0 {
-        1.0
-    } else {
-        part as f64 / whole as f64
     }
 }
 

@@ -1,9 +1,6 @@
-use alloc::borrow::Cow;
 use core::time::Duration;
 
-use rand::{Rng, RngExt};
 use thiserror::Error;
-use tolman_control::heading_of;
 use tolman_geom::{Point, Pose};
 use tolman_maze::{Cell, Direction, Maze, MazeFile};
 use tolman_robot::{Goal, Landmark, Standing, Task};
@@ -20,7 +17,7 @@ use super::sites::Sites;
 use super::true_graph::TrueGraph;
 use super::wanderers::Sender;
 use super::whereabouts::{Squares, believed};
-use crate::course::{Course, Terrain};
+use crate::course::{Course, Terrain, pick};
 use crate::registry::{
     Registry, RobotEntry, RobotKind, Schooling, Settings, Setup, Start, SystemEntry,
 };
@@ -240,7 +237,7 @@ const NO_STEPS: u32 = 0;
 /// Share of the length of all corridors after which a robot is kidnapped.
 const KIDNAPPED_AT: f64 = 0.5;
 
-impl<'a> Contest<'a> {
+impl Contest<'_> {
     /// Maximum driven distance of a task, as a multiple of the length of all corridors, or of the
     /// shortest way to the goal.
     pub const LIMIT: f64 = 10.0;
@@ -317,7 +314,7 @@ impl<'a> Contest<'a> {
     /// Returns the robot that carries the contestant.
     #[must_use]
     pub fn robot(&self) -> RobotEntry {
-        let own = || Registry::current().robot(self.contestant.own_robot());
+        let own = || Registry::current().robot(self.contestant.facts().own_robot);
         self.robot.or_else(own).unwrap_or(RobotEntry::LASER_PIONEER)
     }
 
@@ -347,7 +344,7 @@ impl<'a> Contest<'a> {
             robot: self.robot(),
             from: None,
             settings: Settings {
-                preset: self.contestant.arena_preset(),
+                preset: self.contestant.facts().arena_preset,
                 set: &[],
             },
             condition: self.condition,
@@ -383,9 +380,9 @@ impl<'a> Contest<'a> {
     #[must_use]
     pub fn put_downs(&self) -> Vec<[(Cell, Direction); 2]> {
         let mut rng = stream(self.seed, START_STREAM);
-        let ways = self.ways_out();
-        let mut pick = || ways.get(position(ways.len(), &mut rng)).copied();
-        let starts = (0..self.starts).filter_map(|_| Some([pick()?, pick()?]));
+        let ways = self.maze.ways_out();
+        let mut way = || pick(&ways, &mut rng);
+        let starts = (0..self.starts).filter_map(|_| Some([way()?, way()?]));
         starts.collect()
     }
 
@@ -395,15 +392,12 @@ impl<'a> Contest<'a> {
     }
 
     /// Returns the drawing as it is after the robot has learned.
-    pub(super) fn maze_afterwards(&self) -> Cow<'a, Maze> {
-        match self.door() {
-            None => Cow::Borrowed(self.maze),
-            Some((cell, way)) => {
-                let mut maze = self.maze.clone();
-                maze.set_wall(cell, way, true);
-                Cow::Owned(maze)
-            }
+    pub(super) fn maze_afterwards(&self) -> Maze {
+        let mut maze = self.maze.clone();
+        if let Some((cell, way)) = self.door() {
+            maze.set_wall(cell, way, true);
         }
+        maze
     }
 
     /// Returns the cell and direction to which the robot is carried, untold, while it learns, or
@@ -411,21 +405,11 @@ impl<'a> Contest<'a> {
     fn kidnapping(&self) -> Option<(Cell, Direction)> {
         let is_kidnapped = self.condition == Condition::Kidnapping;
         let mut rng = stream(self.seed, KIDNAPPING_STREAM);
-        let ways = self.ways_out();
-        let place = ways.get(position(ways.len(), &mut rng)).copied();
-        place.filter(|_| is_kidnapped)
-    }
-
-    /// Returns all cells but goals, with the ways out of them.
-    fn ways_out(&self) -> Vec<(Cell, Direction)> {
-        let maze = self.maze;
-        let cells = maze.reachable().filter(|cell| !maze.goals().contains(cell));
-        let out_of = |cell| maze.neighbours(cell).map(move |(way, _)| (cell, way));
-        cells.flat_map(out_of).collect()
+        pick(&self.maze.ways_out(), &mut rng).filter(|_| is_kidnapped)
     }
 
     /// Returns the ideal observer for a course of the drawing.
-    pub(super) fn observer(&self, course: &Course) -> IdealObserver<'a> {
+    pub(super) fn observer(&self, course: &Course) -> IdealObserver {
         let kind = match self.contestant.baseline() {
             Some(_) => RobotKind::Laser,
             None => self.robot().kind(),
@@ -458,20 +442,13 @@ impl<'a> Contest<'a> {
     }
 }
 
-fn position(len: usize, rng: &mut impl Rng) -> usize {
-    match len {
-        0 => 0,
-        len => rng.random_range(0..len as u32) as usize,
-    }
-}
-
 /// A contest in progress.
 pub(super) struct Bout {
     pub(super) maze: Maze,
-    /// The drawing after the robot has learned; `None` if the world stays the same.
-    afterwards: Option<Maze>,
+    /// Whether a door is shut after the robot has learned.
+    has_door: bool,
     truth: TrueGraph,
-    observer: IdealObserver<'static>,
+    observer: IdealObserver,
     claims: bool,
     pub(super) squares: Squares,
     pub(super) outing: Box<dyn Outing>,
@@ -522,19 +499,13 @@ pub(super) struct Driven {
 
 impl Bout {
     pub(super) fn new(contest: &Contest<'_>, outing: Box<dyn Outing>) -> Self {
-        let pitch = outing.course().pitch();
-        let maze = contest.maze;
-        let grid = maze.grid();
         Self {
-            maze: maze.clone(),
-            afterwards: match contest.maze_afterwards() {
-                Cow::Borrowed(_) => None,
-                Cow::Owned(maze) => Some(maze),
-            },
-            truth: TrueGraph::of(maze, contest.contestant.places()),
-            observer: contest.observer(outing.course()).into_owned(),
-            claims: contest.contestant.claims(),
-            squares: Squares { grid, pitch },
+            maze: contest.maze.clone(),
+            has_door: contest.door().is_some(),
+            truth: TrueGraph::of(contest.maze, contest.contestant.facts().places),
+            observer: contest.observer(outing.course()),
+            claims: contest.contestant.facts().claims,
+            squares: Squares::of(outing.course()),
             outing,
             is_lifted: false,
             sites: Sites::default(),
@@ -653,9 +624,9 @@ impl Bout {
 
     /// Shuts the door, if there is one.
     fn shut_door(&mut self) -> Result<(), BoxError> {
-        match &self.afterwards {
-            None => Ok(()),
-            Some(_) => self.outing.set_door(DOOR, DoorState::Shut),
+        match self.has_door {
+            true => self.outing.set_door(DOOR, DoorState::Shut),
+            false => Ok(()),
         }
     }
 
@@ -686,7 +657,7 @@ impl Bout {
     /// Begins to learn. The robot is put elsewhere as `kidnapping` says.
     pub(super) fn begin_to_learn(&mut self, kidnapping: Option<(Cell, Direction)>) -> Pursuit {
         let kidnapping = kidnapping.map(|(cell, way)| {
-            let pose = Pose::new(self.squares.middle(cell), heading_of(way));
+            let pose = self.outing.course().in_cell(cell, way);
             (KIDNAPPED_AT * self.corridors(), pose)
         });
         let most = Contest::LIMIT * self.corridors();
@@ -721,7 +692,7 @@ impl Bout {
         &mut self,
         (cell, way): (Cell, Direction),
     ) -> Result<Standing, BoxError> {
-        let pose = Pose::new(self.squares.middle(cell), heading_of(way));
+        let pose = self.outing.course().in_cell(cell, way);
         self.is_lifted = true;
         self.outing.put_down(pose)
     }
@@ -741,8 +712,7 @@ impl Bout {
             return Ok(Located::undriven(why));
         }
         watch(&*self.outing, Moment::PutDown);
-        let most = Contest::LIMIT * self.corridors();
-        let pursuit = self.set_out(Task::Localize, most, None);
+        let pursuit = self.begin_to_localize();
         let (sites, near) = (self.sites.clone(), NEAR * self.squares.pitch);
         let mut chances = Vec::new();
         let driven = self.pursue(pursuit, |outing, before| {
@@ -789,8 +759,8 @@ impl Bout {
         start: (Cell, Direction),
         watch: &mut impl FnMut(&dyn Outing, Moment),
     ) -> Result<Home, BoxError> {
-        let afterwards = self.afterwards.as_ref().unwrap_or(&self.maze);
-        let shortest = afterwards.metres_to_goal(start.0, self.squares.pitch);
+        let maze = &self.observer.maze;
+        let shortest = maze.metres_to_goal(start.0, self.squares.pitch);
         if let Standing::GaveUp { why } = self.put_down(start)? {
             return Ok(Home {
                 over_shortest: None,
@@ -838,6 +808,9 @@ pub(super) trait Measured {
     /// Returns the number of openings between two cells that can be reached.
     fn corridor_count(&self) -> usize;
 
+    /// Returns all cells that can be reached but goals, with the ways out of them.
+    fn ways_out(&self) -> Vec<(Cell, Direction)>;
+
     /// Returns the length of the shortest way from a cell to the goal, m.
     fn metres_to_goal(&self, from: Cell, pitch: f64) -> f64;
 }
@@ -846,6 +819,12 @@ impl Measured for Maze {
     fn corridor_count(&self) -> usize {
         let ways = self.reachable().map(|cell| self.degree(cell));
         ways.sum::<usize>() / 2
+    }
+
+    fn ways_out(&self) -> Vec<(Cell, Direction)> {
+        let cells = self.reachable().filter(|cell| !self.goals().contains(cell));
+        let out_of = |cell| self.neighbours(cell).map(move |(way, _)| (cell, way));
+        cells.flat_map(out_of).collect()
     }
 
     fn metres_to_goal(&self, from: Cell, pitch: f64) -> f64 {

@@ -3,6 +3,8 @@ use alloc::collections::BTreeSet;
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_robot::Landmark;
 
+use crate::cpm::{ends_fragments, follow};
+
 /// Rule for the cells of a drawing that are places, depending on what a system can distinguish.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlaceRule {
@@ -48,23 +50,25 @@ impl TrueGraph {
         let start = maze.start().map(|(cell, _)| (cell, Landmark::Start));
         let goals = maze.goals().iter().map(|cell| (*cell, Landmark::Goal));
         let landmarks: Vec<(Cell, Landmark)> = start.into_iter().chain(goals).collect();
-        let is_marked = |cell: Cell| landmarks.iter().any(|(marked, _)| *marked == cell);
         let places = maze.reachable();
         let places = places.filter(|cell| match rule {
-            PlaceRule::Landmarks => maze.degree(*cell) != 2 || is_marked(*cell),
+            PlaceRule::Landmarks => ends_fragments(maze, *cell),
             PlaceRule::Corners => !is_straight(maze, *cell),
         });
         let places: BTreeSet<Cell> = places.collect();
         let mut ways: Vec<TrueWay> = Vec::new();
-        let mut left: BTreeSet<(Cell, usize)> = BTreeSet::new();
+        let mut left: BTreeSet<(Cell, Direction)> = BTreeSet::new();
         for from in &places {
-            for (out, _) in maze.neighbours(*from) {
-                if left.contains(&(*from, out.index())) {
+            for (out, next) in maze.neighbours(*from) {
+                if left.contains(&(*from, out)) {
                     continue;
                 }
-                let (way, came) = follow(maze, &places, *from, out);
-                left.insert((way.ends[1], came.opposite().index()));
-                ways.push(way);
+                let is_place = |cell| places.contains(&cell);
+                let (mut between, came) = follow(maze, out, next, is_place);
+                let to = between.pop().unwrap_or(next);
+                left.insert((to, came.opposite()));
+                let ends = [*from, to];
+                ways.push(TrueWay { ends, between });
             }
         }
         Self {
@@ -140,33 +144,6 @@ fn turn_back_or_on(between: &mut Vec<Cell>, cell: Cell) {
         }
         _ => between.push(cell),
     }
-}
-
-/// Returns the way that leaves a place in the direction `out`, and the direction in which it
-/// arrives at its end.
-fn follow(
-    maze: &Maze,
-    places: &BTreeSet<Cell>,
-    from: Cell,
-    out: Direction,
-) -> (TrueWay, Direction) {
-    let (mut at, mut came) = (from, out);
-    let mut between = Vec::new();
-    while let Some(next) = maze.beside(at, came) {
-        at = next;
-        if places.contains(&at) {
-            break;
-        }
-        between.push(at);
-        let back = came.opposite();
-        let mut on = maze.neighbours(at).filter(|(way, _)| *way != back);
-        let Some((on, _)) = on.next() else {
-            break;
-        };
-        came = on;
-    }
-    let ends = [from, at];
-    (TrueWay { ends, between }, came)
 }
 
 #[cfg(test)]

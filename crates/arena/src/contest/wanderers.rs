@@ -29,7 +29,7 @@ pub(super) struct Sender<'a> {
 
 impl<'a> Sender<'a> {
     pub(super) fn new(contest: &'a Contest<'a>, agent: Agent) -> Result<Self, BoxError> {
-        let file = MazeFile::from(contest.maze_afterwards().into_owned());
+        let file = MazeFile::from(contest.maze_afterwards());
         Ok(Self {
             contest,
             agent,
@@ -98,10 +98,7 @@ impl<'a> Sender<'a> {
     }
 
     fn located(&self, number: u64, start: (Cell, Direction)) -> Result<Located, BoxError> {
-        let squares = Squares {
-            grid: self.course.maze.grid(),
-            pitch: self.course.corridor_width,
-        };
+        let squares = Squares::of(&self.course);
         let most = Contest::LIMIT * self.course.maze.corridor_count() as f64 * squares.pitch;
         let trial = self.trial(number, start, most);
         // Whether it was right when it was first sure, and the number of time steps until then.

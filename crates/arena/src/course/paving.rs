@@ -177,9 +177,8 @@ impl Paving {
     pub(super) fn amid(&self, maze: &Maze, cell: Cell, direction: Direction) -> Point {
         let to = |side| f64::from(run(maze, cell, side));
         let (left, right) = (direction.left(), direction.right());
-        let (east, north) = left.step();
-        let leftwards = Vector::new(f64::from(east), f64::from(north));
-        self.centre(cell) + 0.5 * self.pitch * (to(left) - to(right)) * leftwards
+        self.centre(cell)
+            + 0.5 * self.pitch * (to(left) - to(right)) * tolman_control::unit_of(left)
     }
 }
 

@@ -4,7 +4,7 @@ use tolman_systems::cpm::{CommonPatterns, CpmConfig};
 
 use super::robots::{epuck, walker_config};
 use super::survey::survey;
-use super::trial::CpmTrialError;
+use crate::BoxError;
 use crate::course::Course;
 
 /// Whether observations tell the fragments of a maze apart, measured by f_S. These are the
@@ -46,13 +46,13 @@ struct Walked {
 /// O(walks² · length) comparisons of patterns.
 ///
 /// # Errors
-/// [`CpmTrialError`] if the robot cannot walk a fragment, comes to another place than its end, or
+/// If the robot cannot walk a fragment, comes to another place than its end, or
 /// sees nothing on the way.
 pub fn distinctness(
     course: &Course,
     patterns: &CommonPatterns,
     seeds: impl IntoIterator<Item = u64>,
-) -> Result<Distinctness, CpmTrialError> {
+) -> Result<Distinctness, BoxError> {
     let config = walker_config(&epuck(), course.corridor_width)?;
     let mut walks = Vec::new();
     for seed in seeds {
@@ -60,7 +60,11 @@ pub fn distinctness(
         for walk in walked {
             let ends = (walk.from, walk.way.to);
             if walk.to != Some(walk.way.to) || walk.observations.is_empty() {
-                return Err(CpmTrialError::Unwalked { ends });
+                let (from, to) = ends;
+                return Err(format!(
+                    "the robot saw nothing on the way from {from} to {to}, or came elsewhere: make the way longer than a cell"
+                )
+                .into());
             }
             walks.push(Walked {
                 fragment: walk.way.fragment,
@@ -131,9 +135,6 @@ o---o---o---o---o---o
         let text = "start = 0 0 east\n\no---o---o\n| S   G |\no---o---o\n";
         let course = epuck_course("", tolman_maze::read(text).unwrap()).unwrap();
         let refused = distinctness(&course, &PATTERNS, 0..1).unwrap_err();
-        assert!(
-            matches!(refused, CpmTrialError::Unwalked { .. }),
-            "{refused}"
-        );
+        assert!(refused.to_string().contains("saw nothing"), "{refused}");
     }
 }

@@ -38,13 +38,13 @@ pub(crate) fn landmark_at(maze: &Maze, cell: Cell) -> Option<Landmark> {
 }
 
 /// Returns whether a cell is a junction, a dead end, the start or a goal.
-fn ends_fragments(maze: &Maze, cell: Cell) -> bool {
+pub(crate) fn ends_fragments(maze: &Maze, cell: Cell) -> bool {
     maze.degree(cell) != 2 || landmark_at(maze, cell).is_some()
 }
 
 /// Returns the cells of the way `out` of a place to `next` and on to the next place, and the
 /// direction of arrival there.
-fn follow(
+pub(crate) fn follow(
     maze: &Maze,
     out: Direction,
     next: Cell,
@@ -114,6 +114,12 @@ pub(super) const DIRECTIONS: [Direction; 4] = [
     Direction::South,
 ];
 
+/// Returns the direction that is nearest to a heading.
+pub(crate) fn direction_of(heading: Heading) -> Direction {
+    let quarters = libm::round(heading.radians() / FRAC_PI_2).rem_euclid(4.0) as usize;
+    DIRECTIONS[quarters % DIRECTIONS.len()]
+}
+
 impl TrueFragments {
     /// Returns the fragments of a maze between its junctions, dead ends, start and goals.
     #[must_use]
@@ -145,9 +151,7 @@ impl TrueFragments {
     /// Returns the way out of a place in this heading.
     #[must_use]
     pub fn way(&self, from: Cell, heading: Heading) -> Option<WayOut> {
-        let nearest = libm::round(heading.radians() / FRAC_PI_2).rem_euclid(4.0) as u32;
-        let direction = DIRECTIONS[nearest as usize % DIRECTIONS.len()];
-        self.ways.get(&(from, direction)).copied()
+        self.ways.get(&(from, direction_of(heading))).copied()
     }
 
     /// Returns the way by which a robot left its last place; `None` if there is no way.

@@ -5,7 +5,7 @@ use tolman_sim::robots::{Epuck, EpuckConfig};
 use tolman_systems::cpm::{CommonPatterns, CpmRobot, Lesson, Walker, WalkerConfig, soinn, wander};
 
 use super::robots::{epuck, pioneer_as_epuck, walker_config};
-use super::trial::CpmTrialError;
+use crate::BoxError;
 use crate::course::Course;
 use crate::pioneer::calibrated;
 
@@ -19,8 +19,8 @@ const PIONEER_LESSON: Lesson = Lesson::Observations(300);
 /// (section 5).
 ///
 /// # Errors
-/// [`CpmTrialError`].
-pub fn learn(course: &Course, seed: u64) -> Result<CommonPatterns, CpmTrialError> {
+/// If the robot cannot be put down, or cannot go on.
+pub fn learn(course: &Course, seed: u64) -> Result<CommonPatterns, BoxError> {
     let config = walker_config(&epuck(), course.corridor_width)?;
     learn_by(course, epuck(), config, EPUCK_LESSON, seed)
 }
@@ -28,14 +28,14 @@ pub fn learn(course: &Course, seed: u64) -> Result<CommonPatterns, CpmTrialError
 /// Learns the common patterns in a maze by another e-puck, with its own walker.
 ///
 /// # Errors
-/// [`CpmTrialError`].
+/// If the robot cannot be put down, or cannot go on.
 pub fn learn_by(
     course: &Course,
     robot: EpuckConfig,
     config: WalkerConfig,
     lesson: Lesson,
     seed: u64,
-) -> Result<CommonPatterns, CpmTrialError> {
+) -> Result<CommonPatterns, BoxError> {
     let body = course.robot_at(course.start()?, Epuck::new(robot)?, seed)?;
     learn_with(body, config, lesson, seed)
 }
@@ -44,8 +44,8 @@ pub fn learn_by(
 /// 300 observations.
 ///
 /// # Errors
-/// [`CpmTrialError`].
-pub fn learn_on_pioneer(course: &Course, seed: u64) -> Result<CommonPatterns, CpmTrialError> {
+/// If the robot cannot be put down, or cannot go on.
+pub fn learn_on_pioneer(course: &Course, seed: u64) -> Result<CommonPatterns, BoxError> {
     let (body, config) = pioneer_as_epuck(course, course.start()?, calibrated(), seed)?;
     learn_with(body, config, PIONEER_LESSON, seed)
 }
@@ -55,7 +55,7 @@ fn learn_with(
     config: WalkerConfig,
     lesson: Lesson,
     seed: u64,
-) -> Result<CommonPatterns, CpmTrialError> {
+) -> Result<CommonPatterns, BoxError> {
     let mut walker = Walker::new(body, config);
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let observations = wander(&mut walker, lesson, &mut rng)?;

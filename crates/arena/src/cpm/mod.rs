@@ -28,10 +28,10 @@ pub use bends::BendLikeness;
 pub use course::{CORRIDOR_WIDTH, epuck_course, epuck_course_on};
 pub use covering_walk::covering_walk;
 pub use distinctness::{Distinctness, WalkPair, distinctness};
-pub(crate) use fragments::landmark_at;
 #[cfg(test)]
 pub(crate) use fragments::tests::LOOP;
 pub use fragments::{TrueFragments, WayOut};
+pub(crate) use fragments::{direction_of, ends_fragments, follow, landmark_at};
 pub use layout::{Fit, Layout, Lie, OpenPort};
 pub use lesson::{learn, learn_by, learn_on_pioneer};
 pub use map_right::is_whole_map_right;
@@ -43,4 +43,4 @@ pub use robots::{
 pub use run::CpmRun;
 pub use score::Closures;
 pub use survey::{SurveyedWalk, survey};
-pub use trial::{CpmTrial, CpmTrialError, TrialRecord};
+pub use trial::{CpmTrial, TrialRecord};

@@ -12,7 +12,8 @@ use tolman_systems::cpm::{
 use super::fragments::{TrueFragments, WayOut};
 use super::robots::walker_config;
 use super::spots::{Looks, Spot, knowable};
-use super::trial::{CpmTrialError, TrialRecord};
+use super::trial::TrialRecord;
+use crate::BoxError;
 use crate::course::Course;
 use crate::run::until_done;
 
@@ -94,8 +95,8 @@ impl PutDown<'_> {
     /// to be put down in.
     ///
     /// # Errors
-    /// [`CpmTrialError`].
-    pub fn play(&self) -> Result<Option<PutDownRecord>, CpmTrialError> {
+    /// If the robot cannot be put down, or cannot go on.
+    pub fn play(&self) -> Result<Option<PutDownRecord>, BoxError> {
         let mut rng = ChaCha8Rng::seed_from_u64(self.seed);
         let Some(known) = self.known.get(self.here) else {
             return Ok(None);
@@ -175,7 +176,7 @@ impl PutDown<'_> {
     }
 
     /// Returns whether the fourth layer recalls the maze.
-    fn recalled(&self, whereabouts: &Whereabouts) -> Result<Option<bool>, CpmTrialError> {
+    fn recalled(&self, whereabouts: &Whereabouts) -> Result<Option<bool>, BoxError> {
         let Some(walked) = whereabouts.walks.first() else {
             return Ok(None);
         };

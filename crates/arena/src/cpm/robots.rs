@@ -4,10 +4,9 @@ use tolman_sim::robots::{Epuck, EpuckConfig, LaserPioneer, LaserPioneerConfig};
 use tolman_sim::sensors::ResponseCurve;
 use tolman_systems::cpm::{EpuckMeasures, RingAsEpuck, RingMeasures, WalkerConfig};
 
-use super::trial::CpmTrialError;
-use crate::Simulated;
 use crate::course::Course;
 use crate::pioneer::CoursePioneer;
+use crate::{BoxError, Simulated};
 
 /// The simulated e-puck. Its maze's zones `start` and `destination` are its landmarks.
 pub type SimulatedEpuck = Simulated<Epuck>;
@@ -80,7 +79,7 @@ pub fn pioneer_as_epuck(
     pose: Pose,
     robot: LaserPioneerConfig,
     seed: u64,
-) -> Result<(RingAsEpuck<CoursePioneer>, WalkerConfig), CpmTrialError> {
+) -> Result<(RingAsEpuck<CoursePioneer>, WalkerConfig), BoxError> {
     let measures = ring_measures(&robot, course.corridor_width);
     let config = measures.walker_config();
     let body = course.robot_at(pose, LaserPioneer::new(robot)?, seed)?;

@@ -1,10 +1,11 @@
 use tolman_maps::cpm::Sighting;
 use tolman_maze::Cell;
+use tolman_sim::StepError;
 use tolman_sim::robots::{Epuck, EpuckConfig};
 use tolman_systems::cpm::{Observation, WalkError, Walker, WalkerConfig};
 
 use super::fragments::{TrueFragments, WayOut};
-use super::trial::CpmTrialError;
+use crate::BoxError;
 use crate::course::Course;
 
 /// One walk along a true fragment of a maze.
@@ -27,13 +28,13 @@ pub struct SurveyedWalk {
 /// along one fragment, and between walks along two.
 ///
 /// # Errors
-/// [`CpmTrialError`] if the robot cannot stand at a place, or a walk comes to no end.
+/// If the robot cannot stand at a place, or a walk comes to no end.
 pub fn survey(
     course: &Course,
     robot: &EpuckConfig,
     config: &WalkerConfig,
     seed: u64,
-) -> Result<Vec<SurveyedWalk>, CpmTrialError> {
+) -> Result<Vec<SurveyedWalk>, BoxError> {
     let fragments = TrueFragments::of(&course.maze);
     let mut walks = Vec::new();
     for (cell, out, way) in fragments.ways() {
@@ -49,7 +50,7 @@ pub fn survey(
             way,
             to: course.world.cell_at(end),
             observations: walk.observations,
-            sighting: walk.sighting.ok_or(WalkError::Lost)?,
+            sighting: walk.sighting.ok_or(WalkError::<StepError>::Lost)?,
         });
     }
     Ok(walks)

@@ -1,23 +1,19 @@
 use alloc::collections::BTreeMap;
 
-use thiserror::Error;
-use tolman_control::epuck::RangeCurveError;
 use tolman_geom::Pose;
-use tolman_maps::cpm::{CpMap, CpmError, FragmentId, LocalizeError, RecallError};
-use tolman_maze::Cell;
+use tolman_maps::cpm::{CpMap, FragmentId};
 use tolman_robot::Landmark;
-use tolman_sim::robots::{Epuck, EpuckConfig, EpuckError, RobotConfigError};
-use tolman_sim::{PlaceError, StepError};
+use tolman_sim::robots::{Epuck, EpuckConfig};
 use tolman_systems::cpm::{
-    Aim, CommonPatterns, CpmFailure, CpmResult, Done, EpisodeSummary, FragmentStep, Layer3,
-    LearnPatternsError, Mode, UnfitRing, WalkError, Walker,
+    Aim, CommonPatterns, CpmResult, Done, EpisodeSummary, FragmentStep, Layer3, Mode, Walker,
 };
 
 use super::fragments::WayOut;
 use super::robots::{SimulatedEpuck, walker_config};
 use super::run::CpmRun;
 use super::score::{Closures, Score};
-use crate::course::{Course, CourseError};
+use crate::BoxError;
+use crate::course::Course;
 
 /// Both episodes of the paper in one maze. The first leads from the start to the goal; the second
 /// leads from the start again, along the shortest known way.
@@ -99,8 +95,8 @@ impl CpmTrial<'_> {
     /// fails as it looks round.
     ///
     /// # Errors
-    /// [`CpmTrialError`] if it cannot be put there.
-    pub fn begin(&self) -> Result<CpmResult<CpmRun, SimulatedEpuck>, CpmTrialError> {
+    /// If it cannot be put there.
+    pub fn begin(&self) -> Result<CpmResult<CpmRun, SimulatedEpuck>, BoxError> {
         let course = self.course;
         let config = walker_config(&self.robot, course.corridor_width)?;
         let robot = Epuck::new(self.robot.clone())?;
@@ -112,19 +108,19 @@ impl CpmTrial<'_> {
     /// Plays both episodes and returns the result. Failures on the way are part of it.
     ///
     /// # Errors
-    /// [`CpmTrialError`] if it cannot be begun.
-    pub fn play(&self) -> Result<TrialRecord, CpmTrialError> {
+    /// If it cannot be begun.
+    pub fn play(&self) -> Result<TrialRecord, BoxError> {
         self.watch(|_, _, _| {})
     }
 
     /// Plays both episodes like [`play`](Self::play). Calls `see` with every fragment of the first.
     ///
     /// # Errors
-    /// [`CpmTrialError`] if it cannot be begun.
+    /// If it cannot be begun.
     pub fn watch(
         &self,
         see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &FragmentStep),
-    ) -> Result<TrialRecord, CpmTrialError> {
+    ) -> Result<TrialRecord, BoxError> {
         let mut record = TrialRecord::default();
         match self.begin()? {
             Ok(mut run) => {
@@ -144,7 +140,7 @@ impl CpmTrial<'_> {
         run: &mut CpmRun,
         record: &mut TrialRecord,
         mut see: impl FnMut(&Layer3, &Walker<SimulatedEpuck>, &FragmentStep),
-    ) -> Result<(), CpmTrialError> {
+    ) -> Result<(), BoxError> {
         let maze = &self.course.maze;
         let mut score = Score::of(maze, run);
         let first = run.pursue(Aim::Find(Landmark::Goal), |layer, walker, step| {
@@ -185,63 +181,12 @@ fn is_as_short(driven: u32, shortest: Option<u32>) -> bool {
     shortest.is_some_and(|shortest| f64::from(driven) <= 1.05 * f64::from(shortest) + 8.0)
 }
 
-/// Reason why a trial cannot be played.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum CpmTrialError {
-    /// The maze is not a course for an e-puck.
-    #[error(transparent)]
-    Course(#[from] CourseError),
-    /// The e-puck cannot be built.
-    #[error(transparent)]
-    Epuck(#[from] EpuckError),
-    /// The Pioneer cannot be built.
-    #[error(transparent)]
-    Pioneer(#[from] RobotConfigError),
-    /// The Pioneer's laser cannot stand in for an e-puck's sensors.
-    #[error(transparent)]
-    Ring(#[from] UnfitRing),
-    /// A fragment was not walked from end to end.
-    #[error(
-        "the robot saw nothing on the way from {} to {}, or came elsewhere: make the way longer than a cell",
-        ends.0, ends.1
-    )]
-    Unwalked {
-        /// The places at the fragment's ends.
-        ends: (Cell, Cell),
-    },
-    /// The robot cannot stand at the start.
-    #[error(transparent)]
-    Place(#[from] PlaceError),
-    /// The robot's sensors cannot be read.
-    #[error(transparent)]
-    Curve(#[from] RangeCurveError),
-    /// The robot could not walk.
-    #[error(transparent)]
-    Walk(#[from] WalkError<StepError>),
-    /// The robot learned nothing.
-    #[error(transparent)]
-    Learn(#[from] LearnPatternsError),
-    /// The memory of several mazes.
-    #[error(transparent)]
-    Recall(#[from] RecallError),
-    /// An episode broke off.
-    #[error(transparent)]
-    Cpm(#[from] CpmFailure<StepError>),
-    /// The maps cannot be searched.
-    #[error(transparent)]
-    Localize(#[from] LocalizeError),
-    /// The map refuses a change.
-    #[error(transparent)]
-    Map(#[from] CpmError),
-}
-
 #[cfg(test)]
 pub(super) mod tests {
     use std::sync::LazyLock;
 
     use tolman_maps::cpm::{FragmentMatching, Similarity};
-    use tolman_maze::{Direction, Grid, Maze};
+    use tolman_maze::{Cell, Direction, Grid, Maze};
     use tolman_sim::noise::Fault;
     use tolman_systems::cpm::{Approach, CpmConfig};
 

@@ -2,10 +2,10 @@
 //! end to the next, which are the places. Encoders, with headings corrected by the walls, are its
 //! odometry. A sweep is its view of a place.
 
-use core::f64::consts::{FRAC_PI_2, TAU};
+use core::f64::consts::TAU;
 
 use thiserror::Error;
-use tolman_control::epuck::{Profile, RangeCurveError};
+use tolman_control::epuck::Profile;
 use tolman_control::heading_of;
 use tolman_geom::{Heading, IntervalError, Point, PointBox, Pose};
 use tolman_maps::diktiometry::{
@@ -14,16 +14,17 @@ use tolman_maps::diktiometry::{
 };
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_robot::{Standing, Task};
-use tolman_sim::robots::{Epuck, EpuckError};
-use tolman_sim::{PlaceError, StepError, World};
+use tolman_sim::robots::Epuck;
+use tolman_sim::{StepError, World};
 use tolman_systems::cpm::{HeadingBy, WalkError, Walker};
 use tolman_systems::diktiometry::{
     Arrival, Diktiometer, DiktiometerConfig, ExploreUntil, MapError, NoEye, RoutineConfig, Rover,
 };
 
 use super::{MapScore, Places, TruePlace, Visit, least_distance, score};
-use crate::course::{Course, CourseError};
-use crate::cpm::{SimulatedEpuck, TrueFragments, epuck, walker_config};
+use crate::BoxError;
+use crate::course::Course;
+use crate::cpm::{SimulatedEpuck, TrueFragments, direction_of, epuck, walker_config};
 use crate::run::{InRun, until_done};
 
 /// Parameters of an e-puck's survey of a maze.
@@ -95,30 +96,6 @@ pub struct EpuckSurvey {
     pub trouble: Option<String>,
 }
 
-/// Reason why a survey cannot be made.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum EpuckSurveyError {
-    /// The maze is not a course from a start.
-    #[error(transparent)]
-    Course(#[from] CourseError),
-    /// The robot cannot be built.
-    #[error(transparent)]
-    Epuck(#[from] EpuckError),
-    /// The robot cannot stand at the start.
-    #[error(transparent)]
-    Place(#[from] PlaceError),
-    /// The robot's sensors cannot be read.
-    #[error(transparent)]
-    Curve(#[from] RangeCurveError),
-    /// The robot finds no first place.
-    #[error(transparent)]
-    Walk(#[from] EpuckRoverError),
-    /// Robot or observer cannot begin or go on.
-    #[error(transparent)]
-    Map(#[from] MapError<EpuckRoverError>),
-}
-
 /// Reason why a routine of the e-puck comes to no end.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -137,14 +114,14 @@ pub enum EpuckRoverError {
 /// Walks through a maze, maps its places, and returns the result.
 ///
 /// # Errors
-/// [`EpuckSurveyError`] if it cannot be begun, or the observer refuses an observation. A robot that
+/// If it cannot be begun, or the observer refuses an observation. A robot that
 /// gets stuck is a result.
 pub fn survey_maze(
     maze: &Maze,
     corridor_width: f64,
     config: &EpuckSurveyConfig,
     seed: u64,
-) -> Result<EpuckSurvey, EpuckSurveyError> {
+) -> Result<EpuckSurvey, BoxError> {
     let mut rover = EpuckRover::new(maze, corridor_width, config, seed)?;
     let truth = true_places(maze, rover.world());
     let mapper = config.mapper(least_distance(&truth).unwrap_or(corridor_width));
@@ -169,7 +146,7 @@ pub fn survey_maze(
         bounded += u32::from(moved.arrival.moved.contains(truly.into()));
         gone.push((site, moved.direction));
         sites.push(rover.site(maze));
-        Ok::<_, EpuckSurveyError>(match (gone.len() as u32) < config.moves {
+        Ok::<_, BoxError>(match (gone.len() as u32) < config.moves {
             true => Standing::UnderWay,
             false => Standing::Done,
         })
@@ -199,7 +176,7 @@ impl EpuckRover {
         corridor_width: f64,
         config: &EpuckSurveyConfig,
         seed: u64,
-    ) -> Result<Self, EpuckSurveyError> {
+    ) -> Result<Self, BoxError> {
         let course = Course::new("", maze.clone(), corridor_width)?;
         let body = course.robot_at(course.start()?, Epuck::new(epuck())?, seed)?;
         let ahead = body.truth().pose.heading;
@@ -211,7 +188,7 @@ impl EpuckRover {
             ahead,
             ways: [None; 4],
         };
-        rover.walker.begin().map_err(EpuckRoverError::from)?;
+        rover.walker.begin()?;
         rover.orient();
         Ok(rover)
     }
@@ -307,12 +284,6 @@ fn value_at(profile: &Profile, bearing: f64) -> f64 {
     let first = libm::round(middle).rem_euclid(values.len() as f64) as usize;
     let cut = (0..width).map(|by| values[(first + by) % values.len()].min(WALL));
     cut.sum::<f64>() / width as f64 / WALL
-}
-
-fn direction_of(heading: Heading) -> Direction {
-    let quarters = libm::round(heading.radians() / FRAC_PI_2).rem_euclid(4.0) as usize;
-    // Directions go clockwise from the north, headings counter-clockwise from the east.
-    Direction::ALL[(5 - quarters % 4) % 4]
 }
 
 /// Returns the junctions, dead ends, start and goals of a maze and where their ways lead, by the

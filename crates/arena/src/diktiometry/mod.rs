@@ -20,7 +20,7 @@ mod survey;
 mod survey_file;
 mod surveyor_config;
 
-pub use epuck::{EpuckRoverError, EpuckSurvey, EpuckSurveyConfig, EpuckSurveyError, survey_maze};
+pub use epuck::{EpuckRoverError, EpuckSurvey, EpuckSurveyConfig, survey_maze};
 pub use errors::{ErrorSummary, MoveError, NEAR, TAIL, WINDOW};
 pub use office::{Office, OfficeConfig, OfficeError, TruePlace, blocks};
 pub use office_robot::{OfficeRobot, office_robot};
@@ -31,4 +31,4 @@ pub use surveyor_config::{PlaceCue, SurveyorConfig};
 
 use memory::Memory;
 use office::{Places, leads, least_distance};
-use score::share;
+pub(crate) use score::share;

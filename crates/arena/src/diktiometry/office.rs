@@ -18,7 +18,7 @@ use tolman_systems::stream;
 
 use super::{RunError, SurveyorConfig};
 use crate::contest::is_straight;
-use crate::course::Course;
+use crate::course::{Course, pick};
 
 /// Depth of the narrow part of a doorway, in the middle of the wall, as a share of the corridor's
 /// width.
@@ -227,8 +227,7 @@ impl Office {
             ways.extend(neighbours.map(|(direction, _)| (*cell, direction)));
         }
         let heading = Heading::from_radians(rng.random_range(-PI..PI));
-        let chosen = rng.random_range(0..ways.len().max(1) as u32) as usize;
-        let Some((cell, direction)) = ways.get(chosen).copied() else {
+        let Some((cell, direction)) = pick(&ways, rng) else {
             return Pose::new(Point::origin(), heading);
         };
         let width = self.config.corridor_width;
@@ -310,8 +309,10 @@ impl Office {
     /// Returns a random place from which a run may start, by its seed.
     pub(super) fn random_place(&self, seed: u64) -> Option<TruePlace> {
         let truth = self.places(&[]);
-        let number = stream(seed, 0).random_range(0..truth.len().max(1) as u32) as usize;
-        truth.into_values().nth(number)
+        pick(
+            &truth.into_values().collect::<Vec<_>>(),
+            &mut stream(seed, 0),
+        )
     }
 
     /// Returns the place of `truth` at a position.
@@ -395,15 +396,12 @@ pub fn blocks(side: u16, walls: f64, rng: &mut impl Rng) -> Maze {
     let grid = Grid::new(side, side);
     let mut maze = Maze::open(grid);
     maze.set_start(Some((Cell::new(0, 0), Direction::North)));
-    for cell in grid.cells() {
-        for direction in [Direction::North, Direction::East] {
-            let inner = grid.neighbour(cell, direction).is_some();
-            if inner && rng.random_range(0.0..1.0) < walls {
-                maze.set_wall(cell, direction, true);
-                let steps = maze.steps_to(&[Cell::new(0, 0)]);
-                if steps.contains(&None) {
-                    maze.set_wall(cell, direction, false);
-                }
+    for (cell, direction, _) in grid.inner_edges() {
+        if rng.random_range(0.0..1.0) < walls {
+            maze.set_wall(cell, direction, true);
+            let steps = maze.steps_to(&[Cell::new(0, 0)]);
+            if steps.contains(&None) {
+                maze.set_wall(cell, direction, false);
             }
         }
     }

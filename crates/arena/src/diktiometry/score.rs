@@ -141,7 +141,7 @@ pub fn score(
 }
 
 /// Returns the share of a part in a whole, 0 to 1; 1 if the whole is empty.
-pub(super) fn share(part: usize, whole: usize) -> f64 {
+pub(crate) fn share(part: usize, whole: usize) -> f64 {
     if whole == 0 {
         1.0
     } else {

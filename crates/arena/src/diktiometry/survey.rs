@@ -20,6 +20,7 @@ use super::{
     MapScore, Memory, MoveError, Office, OfficeRobot, PlaceCue, Places, SurveyorConfig, Visit,
     leads, office_robot, score,
 };
+use crate::course::pick;
 use crate::run::{InRun, until_done};
 use crate::{BoxError, Outing, Sent};
 
@@ -313,10 +314,7 @@ impl Survey {
         let here = observer.place();
         let others = paths.places().map(|(id, _)| id);
         let others: Vec<PlaceId> = others.filter(|id| *id != here).collect();
-        if others.is_empty() {
-            return None;
-        }
-        let to = others[rng.random_range(0..others.len() as u32) as usize];
+        let to = pick(&others, rng)?;
         let is_to = |visit: &&Visit| paths.resolve(visit.place) == Some(to);
         let wanted = self.visits().iter().rev().find(is_to)?.site;
         if !self.truth.contains_key(&wanted) {

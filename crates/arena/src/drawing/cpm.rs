@@ -9,7 +9,7 @@ use tolman_robot::Landmark;
 use tolman_sim::World;
 
 use crate::course::Course;
-use crate::cpm::{Fit, Layout};
+use crate::cpm::{Fit, Layout, Lie};
 use tolman_draw::{
     Drawing, EdgeLine, FloorPlan, GraphEdge, GraphNode, GraphPicture, NodeMark, Series, ZoneStyle,
 };
@@ -57,12 +57,8 @@ pub fn over_maze(map: &CpMap, course: &Course) -> Drawing {
     let bounds = world.bounds();
     let unit = (bounds.max.x - bounds.min.x) / WIDTH;
     stubs(&mut graph, &layout, world);
-    for (id, fragment) in map.fragments() {
-        let Some(course) = layout.fragment(id) else {
-            continue;
-        };
-        let centres = centres(&course.cells, world);
-        match course.fit {
+    for (id, fragment, lie, centres) in laid(map, &layout, world) {
+        match lie.fit {
             Fit::Agrees => plan.way(&centres, series(id)),
             Fit::Astray => plan.doubtful_way(&centres, series(id)),
         }
@@ -140,11 +136,7 @@ pub fn graph(map: &CpMap, course: &Course) -> Drawing {
             junctions.push((id, graph.node(node)));
         }
     }
-    for (id, fragment) in map.fragments() {
-        let Some(course) = layout.fragment(id) else {
-            continue;
-        };
-        let centres = centres(&course.cells, world);
+    for (id, fragment, lie, centres) in laid(map, &layout, world) {
         let name = format!("{} · {}", fragment_name(id), fragment.length());
         let node = fragment_node(map, id, fragment, free(&centres, &graph)).label(name);
         let node = graph.node(node);
@@ -152,7 +144,7 @@ pub fn graph(map: &CpMap, course: &Course) -> Drawing {
             let port = fragment.port(sign);
             let place = junctions.iter().find(|(other, _)| *other == port.junction);
             if let Some((_, place)) = place {
-                let line = match course.fit {
+                let line = match lie.fit {
                     Fit::Agrees => EdgeLine::Plain,
                     Fit::Astray => EdgeLine::Dashed,
                 };
@@ -265,6 +257,18 @@ fn stubs(graph: &mut GraphPicture, layout: &Layout, world: &World) {
                 .line(EdgeLine::Dashed),
         );
     }
+}
+
+/// Returns the fragments that are laid out, each with the centres of its cells.
+fn laid<'a>(
+    map: &'a CpMap,
+    layout: &'a Layout,
+    world: &'a World,
+) -> impl Iterator<Item = (FragmentId, &'a Fragment, &'a Lie, Vec<Point>)> {
+    map.fragments().filter_map(move |(id, fragment)| {
+        let lie = layout.fragment(id)?;
+        Some((id, fragment, lie, centres(&lie.cells, world)))
+    })
 }
 
 /// Returns the middles of cells.

@@ -1,49 +1,15 @@
 use tolman_geom::{Heading, Point, Vector};
-use tolman_maze::Cell;
+use tolman_sim::Bounds;
 
 use super::CellGrid;
-use super::point_score::middle;
 
-/// A rectangle of the field, in cells, over which the map is stretched.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FieldExtent {
-    /// Corner of the least x and y, in cells.
-    pub min: Point,
-    /// Corner of the greatest x and y, in cells.
-    pub max: Point,
-}
-
-impl FieldExtent {
-    /// Returns the whole field.
-    #[must_use]
-    pub fn whole() -> Self {
-        let side = f64::from(CellGrid::SIDE);
-        Self {
-            min: Point::origin(),
-            max: Point::new(side, side),
-        }
-    }
-
-    /// Returns the least rectangle that holds the middles of cells; the whole field if there are
-    /// none.
-    #[must_use]
-    pub fn of_middles(cells: &[Cell]) -> Self {
-        let middles = cells.iter().copied().map(middle);
-        let extents = middles.map(|at| Self { min: at, max: at });
-        extents.reduce(Self::with).unwrap_or_else(Self::whole)
-    }
-
-    fn of(points: impl Iterator<Item = Point>) -> Option<Self> {
-        points
-            .map(|at| Self { min: at, max: at })
-            .reduce(Self::with)
-    }
-
-    fn with(self, other: Self) -> Self {
-        Self {
-            min: Point::new(self.min.x.min(other.min.x), self.min.y.min(other.min.y)),
-            max: Point::new(self.max.x.max(other.max.x), self.max.y.max(other.max.y)),
-        }
+/// Returns the extent of the whole field, in cells.
+#[must_use]
+pub fn whole_field() -> Bounds {
+    let side = f64::from(CellGrid::SIDE);
+    Bounds {
+        min: Point::origin(),
+        max: Point::new(side, side),
     }
 }
 
@@ -53,7 +19,7 @@ pub struct FieldFrame {
     /// Direction from the blue goal to the yellow one; the paper draws it straight up.
     pub yellow_from_blue: Heading,
     /// The rectangle over which the nodes of a map are stretched, in cells.
-    pub extent: FieldExtent,
+    pub extent: Bounds,
 }
 
 /// Transform from positions in a map's frame to cells of the field: steps 2 and 3 of the paper's
@@ -65,8 +31,8 @@ pub struct FieldFrame {
 pub struct FieldFromMap {
     /// First row of the rotation, (cos, −sin).
     turn: Vector,
-    turned: FieldExtent,
-    field: FieldExtent,
+    turned: Bounds,
+    field: Bounds,
 }
 
 impl FieldFromMap {
@@ -84,7 +50,9 @@ impl FieldFromMap {
         let from = (yellow - blue).try_normalize(1e-9)?;
         let to = field.yellow_from_blue.unit();
         let turn = Vector::new(from.dot(&to), -from.perp(&to));
-        let turned = FieldExtent::of(nodes.map(|node| turned(turn, node)))?;
+        let mut nodes = nodes.map(|node| turned(turn, node)).peekable();
+        nodes.peek()?;
+        let turned = Bounds::of(nodes);
         Some(Self {
             turn,
             turned,
@@ -129,7 +97,7 @@ mod tests {
 
     const FIELD: FieldFrame = FieldFrame {
         yellow_from_blue: Heading::NORTH,
-        extent: FieldExtent {
+        extent: Bounds {
             min: Point::new(0.0, 0.0),
             max: Point::new(8.0, 8.0),
         },
@@ -178,7 +146,7 @@ mod tests {
 
     #[test]
     fn what_has_no_extent_lies_in_the_middle() {
-        let extent = FieldExtent::of_middles(&[Cell::new(1, 2), Cell::new(5, 6)]);
+        let extent = Bounds::of([Point::new(1.5, 2.5), Point::new(5.5, 6.5)]);
         let field = FieldFrame { extent, ..FIELD };
         assert_eq!(
             (extent.min, extent.max),

@@ -1,29 +1,12 @@
-use thiserror::Error;
 use tolman_robot::{Standing, Stopping};
-use tolman_sim::StepError;
 use tolman_sim::robots::{Pioneer2dx, Pioneer2dxConfig};
-use tolman_systems::gngslam::{Wanderer, WandererConfig, WandererError};
+use tolman_systems::gngslam::{Wanderer, WandererConfig};
 use tolman_systems::stream;
 
 use super::data_set::mislabel;
-use super::{DataSet, GoalRecords, LabelledRecord, Pitch, PitchError};
-use crate::Simulated;
+use super::{DataSet, GoalRecords, LabelledRecord, Pitch};
 use crate::run::within;
-
-/// Reason why no data was gathered.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum GatherError {
-    /// No records are asked for.
-    #[error("0 records were asked for; gather at least 1")]
-    NoRecords,
-    /// The robot cannot be put into the arena.
-    #[error(transparent)]
-    Pitch(#[from] PitchError),
-    /// The robot got stuck or took no snapshot.
-    #[error(transparent)]
-    Wanderer(#[from] WandererError<StepError>),
-}
+use crate::{BoxError, Simulated};
 
 /// Random stream of a run's seed for the labels; those of the arena are 1 and 2, that of the
 /// wanderer 0.
@@ -34,7 +17,7 @@ const LABELS: u64 = 3;
 /// its turns and the labels.
 ///
 /// # Errors
-/// [`GatherError`] if the robot cannot be built or put down, or takes no snapshot.
+/// If the robot cannot be built or put down, or takes no snapshot.
 ///
 /// ```
 /// use tolman_arena::gngslam::{Pitch, gather};
@@ -43,14 +26,14 @@ const LABELS: u64 = 3;
 /// let data = gather(&pitch, pitch.robot(1, 0.0)?, 1, 12)?;
 /// assert_eq!(data.records.len(), 12);
 /// assert!(data.records.iter().all(|record| pitch.course.leads_on(record.truth.position)));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// # Ok::<(), tolman_arena::BoxError>(())
 /// ```
 pub fn gather(
     pitch: &Pitch,
     robot: Pioneer2dxConfig,
     seed: u64,
     count: u32,
-) -> Result<DataSet, GatherError> {
+) -> Result<DataSet, BoxError> {
     let mut robot = pitch.put(robot, seed)?;
     let mut wanderer = Wanderer::new(WandererConfig::paper(), seed);
     gather_by(pitch, &mut robot, &mut wanderer, seed, count)
@@ -67,9 +50,9 @@ pub fn gather_by(
     wanderer: &mut Wanderer,
     seed: u64,
     count: u32,
-) -> Result<DataSet, GatherError> {
+) -> Result<DataSet, BoxError> {
     if count == 0 {
-        return Err(GatherError::NoRecords);
+        return Err("0 records were asked for; gather at least 1".into());
     }
     let mut records = Vec::with_capacity(count as usize);
     within(count, || {
@@ -82,7 +65,7 @@ pub fn gather_by(
             cell,
             label: cell,
         });
-        Ok::<_, GatherError>(Standing::UnderWay)
+        Ok::<_, BoxError>(Standing::UnderWay)
     })?;
     mislabel(&mut records, &mut stream(seed, LABELS));
     Ok(DataSet {

@@ -43,7 +43,10 @@ impl LaidOver {
 }
 
 /// Returns the rigid motion that brings the first points of all pairs nearest to the second.
-fn rigid_motion(pairs: &[(Point, Point)]) -> Pose {
+///
+/// Source: S. Umeyama: Least-Squares Estimation of Transformation Parameters, 1991, in the plane and
+/// without scale.
+pub(crate) fn rigid_motion(pairs: &[(Point, Point)]) -> Pose {
     let count = pairs.len().max(1) as f64;
     let sum = |sum: (Vector, Vector), (from, to): &(Point, Point)| {
         (sum.0 + from.coords, sum.1 + to.coords)

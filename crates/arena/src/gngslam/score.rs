@@ -3,9 +3,10 @@ use tolman_geom::{Heading, Point, Vector};
 use tolman_maps::place_map::{FeatureTable, PlaceMap, PlaceMapError};
 use tolman_maze::Cell;
 use tolman_quantizers::UnitId;
+use tolman_sim::Bounds;
 
 use super::point_score::middle;
-use super::{DataSet, FieldExtent, FieldFrame, FieldFromMap, GoalRecords, Pitch, PointScore};
+use super::{DataSet, FieldFrame, FieldFromMap, GoalRecords, Pitch, PointScore, whole_field};
 
 /// Nodes of a map nearest to the goals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,7 +51,10 @@ impl PlaceScorer {
     /// is the true direction from the blue goal to the yellow goal.
     #[must_use]
     pub fn of(cells: Vec<Cell>, goals: GoalRecords, yellow_from_blue: Heading) -> Self {
-        let extent = FieldExtent::of_middles(&cells);
+        let extent = match cells.is_empty() {
+            true => whole_field(),
+            false => Bounds::of(cells.iter().copied().map(middle)),
+        };
         Self {
             cells,
             goals,
@@ -63,7 +67,7 @@ impl PlaceScorer {
 
     /// Sets the rectangle over which maps are stretched.
     #[must_use]
-    pub const fn over(mut self, extent: FieldExtent) -> Self {
+    pub const fn over(mut self, extent: Bounds) -> Self {
         self.field.extent = extent;
         self
     }

@@ -1,4 +1,6 @@
-use tolman_geom::{Heading, Point, Pose, Vector};
+use tolman_geom::{Point, Pose};
+
+use crate::gngslam::rigid_motion;
 
 /// Distances of positions from those of another trajectory, after the best rigid motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,33 +18,17 @@ pub struct AlignedScore {
 impl AlignedScore {
     /// Returns the score of pairs of a found and a true position; `None` if there are none.
     /// O(pairs).
-    ///
-    /// Source: S. Umeyama: Least-Squares Estimation of Transformation Parameters, 1991, in the
-    /// plane and without scale.
     #[must_use]
     pub fn of(pairs: &[(Point, Point)]) -> Option<Self> {
         if pairs.is_empty() {
             return None;
         }
-        let count = pairs.len() as f64;
-        let middle = |side: fn(&(Point, Point)) -> Point| {
-            let sum: Vector = pairs.iter().map(|pair| side(pair).coords).sum();
-            sum / count
-        };
-        let (found, truth) = (middle(|pair| pair.0), middle(|pair| pair.1));
-        let (mut sin, mut cos) = (0.0, 0.0);
-        for (a, b) in pairs {
-            let (a, b) = (a.coords - found, b.coords - truth);
-            sin += a.perp(&b);
-            cos += a.dot(&b);
-        }
-        let heading = Heading::from_radians(libm::atan2(sin, cos));
-        let truth_from_found = Pose::new(Point::from(truth - heading.rotate(found)), heading);
+        let truth_from_found = rigid_motion(pairs);
         let off = |(a, b): &(Point, Point)| (truth_from_found.transform(*a) - b).norm();
         let squares: f64 = pairs.iter().map(|pair| off(pair) * off(pair)).sum();
         Some(Self {
             pairs: pairs.len(),
-            rms: libm::sqrt(squares / count),
+            rms: libm::sqrt(squares / pairs.len() as f64),
             largest: pairs.iter().map(off).fold(0.0, f64::max),
             truth_from_found,
         })
@@ -52,6 +38,7 @@ impl AlignedScore {
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
+    use tolman_geom::Heading;
 
     use super::*;
 

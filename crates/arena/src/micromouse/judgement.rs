@@ -6,7 +6,8 @@ use tolman_planners::moves::MoveMap;
 use tolman_planners::{Passages, TooLarge, Unknown};
 use tolman_systems::micromouse::{Driver, MouseError, SIDE, Search, Searcher};
 
-use super::{MouseTrial, MouseTrialError, RefereedStep, brief, check};
+use super::{MouseTrial, RefereedStep, brief, check};
+use crate::BoxError;
 
 /// Quality of a trial.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -79,7 +80,7 @@ pub fn try_on(
     searcher: Searcher,
     seed: u64,
     mut see: impl FnMut(&RefereedStep),
-) -> Result<(MouseTrial, Judgement), MouseTrialError> {
+) -> Result<(MouseTrial, Judgement), BoxError> {
     let mut mouse = searcher.mouse(&brief(maze)?, seed)?;
     let trial = MouseTrial::play(maze, &mut mouse, |step, _| see(step))?;
     let judgement = Judgement::of(maze, &mouse, &trial).map_err(MouseError::from)?;

@@ -44,4 +44,4 @@ pub use certificate::{CertificateError, check};
 pub use judgement::{Judgement, floor, try_on};
 pub use q_learning::CellTask;
 pub use referee::{MAX_STEPS, Referee, RefereeError, Ruling, ScoreSheet, brief};
-pub use trial::{MouseTrial, MouseTrialError, RefereedStep, SideSeen, sides_seen};
+pub use trial::{MouseTrial, RefereedStep, SideSeen, sides_seen};

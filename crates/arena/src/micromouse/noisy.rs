@@ -4,21 +4,18 @@
 //! Rules and score are those of the paper. The mouse is a [`NoisyMouse`]; here are its body, its
 //! maze, and the referee that knows its true pose.
 
-use thiserror::Error;
 use tolman_maps::wall_belief::{PoseFilterConfig, RangeModel};
 use tolman_maze::Maze;
 use tolman_robot::{Ring, Standing};
 use tolman_sim::noise::{Fault, Gaussian};
-use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig, RobotConfigError};
-use tolman_sim::{CorridorSize, PlaceError, StepError, World, WorldError};
-use tolman_systems::micromouse::noisy::{
-    NoisyMouse, NoisyMouseConfig, NoisyMouseError, PoseSource,
-};
+use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
+use tolman_sim::{CorridorSize, StepError, World};
+use tolman_systems::micromouse::noisy::{NoisyMouse, NoisyMouseConfig, PoseSource};
 
-use super::{MAX_STEPS, RefereeError, ScoreSheet, brief};
-use crate::Simulated;
+use super::{MAX_STEPS, ScoreSheet, brief};
 use crate::course::Course;
 use crate::run::{TaskEnd, within};
+use crate::{BoxError, Simulated};
 
 /// Errors of a mouse's wheels and sensors, and the source of its pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -144,36 +141,12 @@ pub struct NoisyTrial {
     pub mean_error: f64,
 }
 
-/// Reason why a mouse cannot be sent out.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum NoisyError {
-    /// The maze does not say where the mouse starts.
-    #[error(transparent)]
-    Maze(#[from] RefereeError),
-    /// The mouse cannot be made.
-    #[error(transparent)]
-    Mouse(#[from] NoisyMouseError),
-    /// The maze cannot be built.
-    #[error(transparent)]
-    World(#[from] WorldError),
-    /// The mouse cannot be built.
-    #[error(transparent)]
-    Robot(#[from] RobotConfigError),
-    /// The mouse cannot be put down at the start.
-    #[error(transparent)]
-    Place(#[from] PlaceError),
-    /// The mouse cannot drive.
-    #[error(transparent)]
-    Step(#[from] StepError),
-}
-
 /// Sends a mouse through `maze` and returns the trial. It explores until it believes that its run
 /// is proven, is put back to the start, and makes that run.
 ///
 /// # Errors
 /// If the maze or the mouse is invalid.
-pub fn send(maze: &Maze, config: &NoisyConfig, seed: u64) -> Result<NoisyTrial, NoisyError> {
+pub fn send(maze: &Maze, config: &NoisyConfig, seed: u64) -> Result<NoisyTrial, BoxError> {
     let robot = config.robot();
     let mouse = NoisyMouse::new(brief(maze)?, config.mouse(&robot), seed)?;
     let corridors = config.size.corridors();
@@ -205,7 +178,7 @@ struct Refereed {
 }
 
 impl Refereed {
-    fn both_runs(&mut self) -> Result<ScoreSheet, NoisyError> {
+    fn both_runs(&mut self) -> Result<ScoreSheet, BoxError> {
         let mut sheet = ScoreSheet::default();
         let run_1 = self.steps_of(MAX_STEPS, NoisyMouse::explore)?;
         let Some(run_1) = run_1.filter(|_| self.was_at_goal) else {

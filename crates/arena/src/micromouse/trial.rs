@@ -2,9 +2,11 @@
 
 use tolman_maze::{Cell, Direction, Maze};
 use tolman_robot::Standing;
-use tolman_systems::micromouse::{Driver, MouseError, Order, OrderError, Search, Sight};
+use tolman_systems::micromouse::{Driver, Order, Search, Sight};
 
-use super::{MAX_STEPS, Referee, RefereeError, Ruling, ScoreSheet};
+use super::{MAX_STEPS, Referee, Ruling, ScoreSheet};
+use crate::BoxError;
+use crate::registry::because;
 use crate::run::{TaskEnd, within};
 
 /// Result of one mouse in one maze.
@@ -67,21 +69,6 @@ pub fn sides_seen(sight: Sight, cell: Cell, heading: Direction) -> Vec<SideSeen>
     lines.into_iter().flat_map(line).collect()
 }
 
-/// Reason why a trial cannot be made.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum MouseTrialError {
-    /// The maze is invalid.
-    #[error(transparent)]
-    Referee(#[from] RefereeError),
-    /// No mouse can be made for this maze.
-    #[error(transparent)]
-    Mouse(#[from] MouseError),
-    /// The mouse gave an order that breaks the rules.
-    #[error("the mouse broke the rules; correct the order that it gave")]
-    Order(#[from] OrderError),
-}
-
 impl MouseTrial {
     /// Lets the mouse run until it is done, gives up or has no step left. Calls `see` with every
     /// step as soon as it is made, and with the mouse after it.
@@ -92,7 +79,7 @@ impl MouseTrial {
         maze: &Maze,
         mouse: &mut Driver<S>,
         mut see: impl FnMut(&RefereedStep, &Driver<S>),
-    ) -> Result<Self, MouseTrialError> {
+    ) -> Result<Self, BoxError> {
         let mut referee = Referee::new(maze)?;
         let mut steps = Vec::new();
         let ended = within(MAX_STEPS, || {
@@ -101,7 +88,12 @@ impl MouseTrial {
                 Ok(order) => order,
                 Err(error) => return Ok(Standing::gave_up(error.to_string())),
             };
-            let event = referee.take(order)?;
+            let event = referee.take(order).map_err(|error| {
+                because(
+                    "the mouse broke the rules; correct the order that it gave",
+                    error,
+                )
+            })?;
             let (cell, heading) = referee.pose();
             let step = RefereedStep {
                 sight,
@@ -112,7 +104,7 @@ impl MouseTrial {
             };
             see(&step, mouse);
             steps.push(step);
-            Ok::<_, MouseTrialError>(match event {
+            Ok::<_, BoxError>(match event {
                 Ruling::Finished => Standing::Done,
                 _ => Standing::UnderWay,
             })

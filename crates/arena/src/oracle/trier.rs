@@ -8,6 +8,7 @@ use tolman_sim::Solo;
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 
 use crate::course::Course;
+use crate::episode::layers;
 use crate::episode_error::{EpisodeError, step_failed};
 
 /// Time steps after which an action counts as failed: it swings to and fro.
@@ -42,7 +43,7 @@ impl<'a> Trier<'a> {
         Ok(Self {
             course,
             robot,
-            stack: Stack::paper(config.ring, 2.0 * config.radius, course.corridor_width)?,
+            stack: layers(course, config)?,
             // The layers draw only to get out of corners; a fixed seed makes it repeatable.
             rng: ChaCha8Rng::seed_from_u64(0),
         })

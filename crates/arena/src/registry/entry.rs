@@ -8,99 +8,116 @@ use crate::cast::Agent;
 use crate::contest::PlaceRule;
 use crate::{BoxError, Outing};
 
+/// Facts about a system, which the command, the arena, the papers' tables, Python and the playground
+/// look up.
+#[derive(Clone, Copy, Debug)]
+pub struct SystemFacts {
+    /// Name as typed, in kebab case; files of maps name it too.
+    pub name: &'static str,
+    /// Name in tables.
+    pub title: &'static str,
+    /// Description in one line, which begins with a verb.
+    pub about: &'static str,
+    /// Whether the system is as its paper has it.
+    pub is_paper: bool,
+    /// What the system does with sensors that not every robot has, as in "it needs a compass".
+    pub needs: &'static str,
+    /// Kinds of robots that sense and move as the system needs it.
+    pub kinds: &'static [RobotKind],
+    /// Name of the robot that the system is made for.
+    pub own_robot: &'static str,
+    /// Names of its presets with their descriptions; the first is the default.
+    pub presets: &'static [(&'static str, &'static str)],
+    /// Preset for contests, where the size of the world limits how far a robot may drive; `None`
+    /// for the default.
+    pub arena_preset: Option<&'static str>,
+    /// Whether it learns a map of a maze with a robot.
+    pub learns: bool,
+    /// The baseline that this is; `None` for a system.
+    pub baseline: Option<Agent>,
+    /// How the system maps a log; `None` if it cannot.
+    pub log_mapper: Option<LogMapper>,
+    /// Reason why the system cannot map a log, in a sentence without a full stop.
+    pub why_no_log: &'static str,
+    /// Whether it drives to the goal by a map in a file.
+    pub drives: bool,
+    /// Whether being done means that it claims its map is that of the whole world.
+    pub claims: bool,
+    /// Rule for the cells that are places of this system. If it treats another cell with two ways
+    /// as a place, that cell counts as part of a way.
+    pub places: PlaceRule,
+    /// World and seed that show the system well.
+    pub demo: (DemoWorld, u64),
+}
+
+impl SystemFacts {
+    /// Returns the facts of a system of this name that learns a map on the laser Pioneer and claims
+    /// to have it when it is done.
+    #[must_use]
+    pub const fn new(name: &'static str) -> Self {
+        Self {
+            name,
+            title: name,
+            about: "is a system from another crate",
+            is_paper: false,
+            needs: "needs a laser ring and a compass",
+            kinds: &[RobotKind::Laser],
+            own_robot: RobotEntry::LASER_PIONEER.name,
+            presets: &[],
+            arena_preset: None,
+            learns: true,
+            baseline: None,
+            log_mapper: None,
+            why_no_log: "it learns from actions, which a log does not name",
+            drives: false,
+            claims: true,
+            places: PlaceRule::Landmarks,
+            demo: (DemoWorld::Large, 1),
+        }
+    }
+}
+
 /// A system by its name, with the robots that can carry it.
 ///
-/// An implementation makes the system ready on its robot. Others let it act, watch it, judge its
-/// map and store it: the command, the arena, the papers' tables, Python and the playground.
+/// An implementation states its facts and makes the system ready on its robot. Others let it act,
+/// watch it, judge its map and store it.
 pub trait SystemEntry: Sync {
-    /// Returns the name as typed, in kebab case; files of maps name it too.
-    fn name(&self) -> &'static str;
+    /// Returns the facts about the system.
+    fn facts(&self) -> SystemFacts;
+
+    /// Returns the name as typed.
+    fn name(&self) -> &'static str {
+        self.facts().name
+    }
 
     /// Returns the name in tables.
     fn title(&self) -> &'static str {
-        self.name()
+        self.facts().title
     }
 
-    /// Returns a description in one line, which begins with a verb.
-    fn about(&self) -> &'static str {
-        "is a system from another crate"
+    /// Returns whether it learns a map of a maze with a robot.
+    fn learns(&self) -> bool {
+        self.facts().learns
     }
 
-    /// Returns whether the system is as its paper has it.
-    fn is_paper(&self) -> bool {
-        false
-    }
-
-    /// Returns what the system does with sensors that not every robot has, as in "it needs a
-    /// compass".
-    fn needs(&self) -> &'static str {
-        "needs a laser ring and a compass"
-    }
-
-    /// Returns the kinds of robots that sense and move as the system needs it.
-    fn kinds(&self) -> &'static [RobotKind] {
-        &[RobotKind::Laser]
-    }
-
-    /// Returns the name of the robot that the system is made for.
-    fn own_robot(&self) -> &'static str {
-        RobotEntry::LASER_PIONEER.name
+    /// Returns the baseline that this is.
+    fn baseline(&self) -> Option<Agent> {
+        self.facts().baseline
     }
 
     /// Returns why a robot cannot carry the system, in a sentence without a full stop; `None` if it
     /// can.
     fn why_not(&self, robot: &RobotEntry) -> Option<String> {
-        let mut kinds = self.kinds().iter();
+        let mut kinds = self.facts().kinds.iter();
         let is_able = kinds.any(|kind| robot.kind().can_be(*kind));
-        let why = || format!("it {}, and the {} has none", self.needs(), robot.title);
+        let why = || {
+            format!(
+                "it {}, and the {} has none",
+                self.facts().needs,
+                robot.title
+            )
+        };
         (!is_able).then(why)
-    }
-
-    /// Returns the names of its presets with their descriptions; the first is the default.
-    fn presets(&self) -> &'static [(&'static str, &'static str)] {
-        &[]
-    }
-
-    /// Returns the preset for contests, where the size of the world limits how far a robot may
-    /// drive; `None` for the default.
-    fn arena_preset(&self) -> Option<&'static str> {
-        None
-    }
-
-    /// Returns whether it learns a map of a maze with a robot.
-    fn learns(&self) -> bool {
-        true
-    }
-
-    /// Returns the baseline that this is; `None` for a system.
-    fn baseline(&self) -> Option<Agent> {
-        None
-    }
-
-    /// Returns how the system maps a log; `None` if it cannot.
-    fn log_mapper(&self) -> Option<LogMapper> {
-        None
-    }
-
-    /// Returns why the system cannot map a log, in a sentence without a full stop.
-    fn why_no_log(&self) -> &'static str {
-        "it learns from actions, which a log does not name"
-    }
-
-    /// Returns whether it drives to the goal by a map in a file.
-    fn drives(&self) -> bool {
-        false
-    }
-
-    /// Returns whether being done means that it claims its map is that of the whole world.
-    fn claims(&self) -> bool {
-        true
-    }
-
-    /// Returns the rule for the cells that are places of this system. If it treats another cell
-    /// with two ways as a place, that cell counts as part of a way.
-    fn places(&self) -> PlaceRule {
-        PlaceRule::Landmarks
     }
 
     /// Returns the maximum number of cells that it sees straight on through an opening with a robot
@@ -117,11 +134,6 @@ pub trait SystemEntry: Sync {
     /// `None` if it can. It decides by its own features alone. O(cells).
     fn abstains(&self, _maze: &Maze) -> Option<String> {
         None
-    }
-
-    /// Returns the world and the seed that show the system well.
-    fn demo(&self) -> (DemoWorld, u64) {
-        (DemoWorld::Large, 1)
     }
 
     /// Returns the system ready to learn a maze.

@@ -4,7 +4,7 @@ use tolman_draw::Drawing;
 use tolman_robot::MapView;
 use tolman_systems::{FileError, Origin, origin_of};
 
-use super::SystemEntry;
+use super::{SystemEntry, because};
 use crate::BoxError;
 use crate::contest::Evidence;
 use crate::course::{Course, Terrain};
@@ -48,6 +48,17 @@ impl MapText {
         })
     }
 
+    /// Returns the map as `parse` reads it.
+    ///
+    /// # Errors
+    /// If the file is invalid.
+    pub(super) fn parsed<T, E: Into<BoxError>>(
+        &self,
+        parse: fn(&str) -> Result<T, E>,
+    ) -> Result<T, BoxError> {
+        parse(&self.text).map_err(|error| because(&self.name, error))
+    }
+
     /// Returns the text of a map's file, as its system wrote it, with the judge's evidence.
     ///
     /// # Errors
@@ -84,7 +95,7 @@ impl MapText {
         let truth = self.truth.as_ref();
         let truth =
             truth.ok_or("the file does not say where the robot truly was: learn it again")?;
-        match truth.complaint(&map.view()?, &course, system.places()) {
+        match truth.complaint(&map.view()?, &course, system.facts().places) {
             Ok(complaint) => Ok(complaint),
             // The map's own account is left.
             Err(unknown) => map.doubt().map(Some).ok_or_else(|| unknown.into()),

@@ -107,7 +107,7 @@ impl Registry {
         let mut robots: Vec<RobotEntry> = self.robots.clone();
         robots.retain(|robot| system.why_not(robot).is_none());
         // The sort keeps the order of the others.
-        robots.sort_by_key(|robot| robot.name != system.own_robot());
+        robots.sort_by_key(|robot| robot.name != system.facts().own_robot);
         robots
     }
 }
@@ -149,7 +149,12 @@ mod tests {
         let registry = Registry::tolman();
         for system in registry.learners() {
             let robots = registry.robots_of(system);
-            assert_eq!(robots[0].name, system.own_robot(), "{}", system.name());
+            assert_eq!(
+                robots[0].name,
+                system.facts().own_robot,
+                "{}",
+                system.name()
+            );
             for robot in &registry.robots {
                 let can = robots.iter().any(|one| one.name == robot.name);
                 assert_eq!(system.why_not(robot).is_none(), can);

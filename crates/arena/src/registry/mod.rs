@@ -16,7 +16,7 @@ mod start;
 mod systems;
 mod view_file;
 
-pub use entry::{DemoWorld, LogMapper, SystemEntry};
+pub use entry::{DemoWorld, LogMapper, SystemEntry, SystemFacts};
 pub use learned_map::{LearnedMap, MapText};
 pub use list::{Registry, slug};
 pub use robots::{LaserLike, LaserModel, RobotEntry, RobotKind};
@@ -29,7 +29,7 @@ use crate::BoxError;
 use crate::family::Family;
 
 /// Returns an error that says what failed, `what`, with the error that was the reason.
-fn because(what: impl Into<String>, source: impl Into<BoxError>) -> BoxError {
+pub(crate) fn because(what: impl Into<String>, source: impl Into<BoxError>) -> BoxError {
     Box::new(Because {
         what: what.into(),
         source: source.into(),

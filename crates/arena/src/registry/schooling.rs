@@ -36,7 +36,7 @@ impl Schooling {
     /// If it learns none.
     pub fn of_epuck_by(seed: u64) -> Result<CommonPatterns, BoxError> {
         let course = epuck_course("learning", tolman_maze::read(LEARNING_MAZE)?)?;
-        Ok(cpm::learn(&course, seed)?)
+        cpm::learn(&course, seed)
     }
 
     /// Returns the common patterns that the laser Pioneer learns in the learning maze, with
@@ -55,7 +55,7 @@ impl Schooling {
 fn pioneers_lesson(width: f64) -> Result<CommonPatterns, BoxError> {
     let maze = tolman_maze::read(LEARNING_MAZE)?.maze;
     let course = Course::new("learning", maze, width)?;
-    Ok(cpm::learn_on_pioneer(&course, SEED)?)
+    cpm::learn_on_pioneer(&course, SEED)
 }
 
 fn taught(

@@ -3,16 +3,16 @@ use serde::de::DeserializeOwned;
 use thiserror::Error;
 use tolman_control::Stack;
 use tolman_geom::Pose;
-use tolman_maze::{Cell, Direction};
-use tolman_robot::Body;
-use tolman_sim::robots::LaserPioneerConfig;
+use tolman_robot::{Body, SensesLandmarks, System};
+use tolman_sim::robots::{LaserPioneerConfig, Pioneer2dx, Pioneer2dxConfig};
 use tolman_systems::Origin;
 
 use super::{LaserLike, MapText, RobotEntry, Schooling, Start};
 use crate::contest::{Condition, with_door};
 use crate::course::{Course, Terrain};
 use crate::episode::{layers, random_start};
-use crate::{BoxError, Simulated};
+use crate::run::Limited;
+use crate::{BoxError, HasSimulated, Outing, Sent, Simulated};
 
 /// Everything needed to send out a robot.
 #[derive(Clone, Debug)]
@@ -66,16 +66,13 @@ impl Setup<'_> {
     /// # Errors
     /// If the door does not fit the world.
     pub fn with_door(&self, course: Course) -> Result<Course, BoxError> {
-        match self.door(&course) {
-            Some(door) => Ok(with_door(course, door)?),
-            None => Ok(course),
-        }
-    }
-
-    fn door(&self, course: &Course) -> Option<(Cell, Direction)> {
-        match course.is_free() {
+        let door = match course.is_free() {
             true => None,
             false => self.condition.door(&course.maze, self.seed),
+        };
+        match door {
+            Some(door) => Ok(with_door(course, door)?),
+            None => Ok(course),
         }
     }
 
@@ -118,6 +115,20 @@ impl Setup<'_> {
         Ok(course.robot_at(start, model, self.seed)?)
     }
 
+    /// Returns the paper's Pioneer 2-DX at `start`, as the condition changes it.
+    ///
+    /// # Errors
+    /// If it cannot be built, or cannot stand there.
+    pub fn pioneer_2dx_at(
+        &self,
+        course: &Course,
+        start: Pose,
+    ) -> Result<Simulated<Pioneer2dx>, BoxError> {
+        let config = Pioneer2dxConfig::paper();
+        let config = self.condition.pioneer_2dx(config, self.seed);
+        Ok(course.robot_at(start, Pioneer2dx::new(config)?, self.seed)?)
+    }
+
     /// Puts the laser robot on the course of the maze, and returns both with the layers that drive
     /// it. Without a given start, its pose is random.
     ///
@@ -133,6 +144,24 @@ impl Setup<'_> {
         let stack = layers(&course, &config)?;
         let robot = self.laser_at(&course, start, config)?;
         Ok((course, robot, stack))
+    }
+
+    /// Sends out `system` with `robot`, which stands on `course`, and keeps the places and links of
+    /// its map in the files of the system `name`.
+    pub fn send<R, S>(
+        &self,
+        name: &'static str,
+        course: Course,
+        robot: R,
+        system: S,
+    ) -> Box<dyn Outing>
+    where
+        R: SensesLandmarks + HasSimulated + 'static,
+        S: System<Limited<R>, Failure: Into<BoxError>> + 'static,
+    {
+        let origin = self.origin(&course);
+        let steps = self.steps.unwrap_or(u32::MAX);
+        Box::new(Sent::new(course, robot, steps, system).keeping_its_view(name, origin))
     }
 
     /// Refuses to continue from a map.
@@ -173,26 +202,25 @@ pub struct Settings<'a> {
 }
 
 impl Settings<'_> {
-    /// Returns the one of `presets` that is chosen, or the first.
+    /// Returns the value of the one of `presets` that is chosen, or of the first.
     ///
     /// # Errors
     /// If another one is chosen.
-    pub fn preset<T>(
+    pub fn preset<T, const N: usize>(
         &self,
-        presets: impl IntoIterator<Item = (&'static str, T)>,
+        presets: &[(&'static str, &'static str); N],
+        values: [T; N],
     ) -> Result<T, BoxError> {
-        let mut known = Vec::new();
-        for (name, preset) in presets {
-            if self.preset.is_none_or(|chosen| chosen == name) {
-                return Ok(preset);
-            }
-            known.push(name);
+        let is_chosen = |name: &str| self.preset.is_none_or(|chosen| chosen == name);
+        let mut all = presets.iter().zip(values);
+        if let Some((_, value)) = all.find(|((name, _), _)| is_chosen(name)) {
+            return Ok(value);
         }
         let name = self.preset.unwrap_or_default();
         Err(UnknownName {
             told: format!("there is no preset {name}"),
             name: name.to_owned(),
-            known: known.into_iter().map(ToOwned::to_owned).collect(),
+            known: presets.map(|(name, _)| name.to_owned()).into(),
         }
         .into())
     }

@@ -89,20 +89,18 @@ impl ViewFile {
 
 impl LearnedMap for ViewFile {
     fn lines(&self) -> Vec<String> {
-        let Origin { world, seed, .. } = &self.origin;
         let (places, links) = (self.view.places.len(), self.view.links.len());
         vec![
-            format!("{world}, seed {seed}"),
+            format!("{}, seed {}", self.origin.world, self.origin.seed),
             format!("{places} places, {links} links"),
         ]
     }
 
     fn json(&self) -> Value {
-        let Origin { world, seed, .. } = &self.origin;
         json!({
             "system": self.system,
-            "maze": world,
-            "seed": seed,
+            "maze": self.origin.world,
+            "seed": self.origin.seed,
             "places": self.view.places.len(),
             "links": self.view.links.len(),
         })

@@ -97,7 +97,7 @@ impl Arena {
         let (world, number) = self.place(row, run)?;
         // The baselines drive the laser Pioneer in all tables.
         let robot = match (row.contestant.baseline(), robot) {
-            (None, None) => row.contestant.own_robot(),
+            (None, None) => row.contestant.facts().own_robot,
             (None, Some(robot)) => robot.name,
             (Some(_), _) => RobotEntry::LASER_PIONEER.name,
         };

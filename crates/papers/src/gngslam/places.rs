@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use serde::Serialize;
-use tolman_arena::gngslam::{DataSet, FieldExtent, Pitch, PlaceScorer, gather};
+use tolman_arena::gngslam::{DataSet, Pitch, PlaceScorer, gather, whole_field};
 use tolman_experiment::BoxError;
 use tolman_maps::place_map::{FeatureChoice, FeatureScaling, FeatureTable, ImageForm, PlaceRecord};
 use tolman_sim::robots::Pioneer2dxConfig;
@@ -101,7 +101,7 @@ impl Places {
         let scorer = PlaceScorer::paper(data, pitch);
         Ok(match stretch {
             Stretch::Visited => scorer,
-            Stretch::Field => scorer.over(FieldExtent::whole()),
+            Stretch::Field => scorer.over(whole_field()),
         })
     }
 }

@@ -248,7 +248,7 @@ impl Arguments {
 
 /// Returns the robot that carries a contestant. Baselines drive the laser Pioneer.
 fn carrier(contestant: Contestant, robot: Option<RobotEntry>) -> RobotEntry {
-    let own = || Registry::current().robot(contestant.own_robot());
+    let own = || Registry::current().robot(contestant.facts().own_robot);
     let robot = match contestant.baseline() {
         Some(_) => None,
         None => robot.or_else(own),

@@ -69,7 +69,7 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     };
     replay_file::check(&path, overwrite)?;
     let contestant = app.system(&arguments.system, |system| system.learns())?;
-    let (usual, seed) = contestant.demo();
+    let (usual, seed) = contestant.facts().demo;
     let usual = match usual {
         DemoWorld::Small => SMALL,
         DemoWorld::Large => MAZE,

@@ -126,7 +126,7 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     // A map is continued by the robot that learned it.
     let usual = match &from {
         Some(map) => &map.origin.robot,
-        None => system.own_robot(),
+        None => system.facts().own_robot,
     };
     let robot = arguments.sent_out.robot(app, system, usual)?;
     let mut setup = arguments.sent_out.setup(&terrain, robot, &schooling);
@@ -230,11 +230,11 @@ impl Verdict {
     ) -> Self {
         let course = outing.course();
         let judged = truth.and_then(|truth| {
-            let judge = || truth.complaint(&outing.map(), course, system.places());
+            let judge = || truth.complaint(&outing.map(), course, system.facts().places);
             map.judged_apart().or_else(|| judge().ok())
         });
         // A system that does not claim that its map is whole is not reproached for it.
-        let claims = system.claims() || course.is_free();
+        let claims = system.facts().claims || course.is_free();
         let found = judged.clone().flatten().filter(|_| claims);
         let complaint = own.or(found).map(|complaint| {
             match system.abstains(&course.maze).filter(|_| !course.is_free()) {

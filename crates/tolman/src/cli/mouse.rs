@@ -158,7 +158,8 @@ impl Arguments {
             at = Some((step.cell, step.heading));
             way.go(way_step(step, way.in_cell(step.cell, step.heading)));
         });
-        let (trial, judgement) = tried.with_context(|| maze::name(file)).or_bad_input()?;
+        let tried = tried.unboxed().with_context(|| maze::name(file));
+        let (trial, judgement) = tried.or_bad_input()?;
         let tried = Tried {
             search,
             maze,

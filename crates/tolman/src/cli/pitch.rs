@@ -128,7 +128,8 @@ fn gathered(arguments: &Gather, out: &mut dyn Write) -> Result {
     let seed = arguments.seed;
     let pitch = Pitch::named(&arguments.name).or_bad_input()?;
     let robot = pitch.robot(seed, arguments.calibration).or_bad_input()?;
-    let data = gather(&pitch, robot, seed, arguments.records).or_bad_input()?;
+    let data = gather(&pitch, robot, seed, arguments.records).unboxed();
+    let data = data.or_bad_input()?;
     file::write(&arguments.out, data.to_text()?)?;
     tell(&data, out)
 }

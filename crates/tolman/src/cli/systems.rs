@@ -40,12 +40,13 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     }
     for system in &registry.systems {
         let uses = uses(*system).join(", ");
-        writeln!(out, "{}: {} ({uses})", system.name(), system.about())?;
-        for (name, about) in system.presets() {
+        let facts = system.facts();
+        writeln!(out, "{}: {} ({uses})", facts.name, facts.about)?;
+        for (name, about) in facts.presets {
             writeln!(out, "    --preset {name:<14} {about}")?;
         }
         for robot in registry.robots_of(*system) {
-            if system.learns() {
+            if facts.learns {
                 writeln!(out, "    --robot {}", robot.name)?;
             }
         }
@@ -58,18 +59,20 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
 
 /// Returns what a system can be used for.
 fn uses(system: &dyn SystemEntry) -> Vec<&'static str> {
+    let facts = system.facts();
     let all = [
-        (system.learns(), "learns"),
-        (system.drives(), "drives"),
-        (system.log_mapper().is_some(), "maps logs"),
-        (system.baseline().is_some(), "baseline"),
+        (facts.learns, "learns"),
+        (facts.drives, "drives"),
+        (facts.log_mapper.is_some(), "maps logs"),
+        (facts.baseline.is_some(), "baseline"),
     ];
     let is = all.into_iter().filter(|(is, _)| *is);
     is.map(|(_, word)| word).collect()
 }
 
 fn json_of(app: &App, system: &dyn SystemEntry) -> Value {
-    let presets = system.presets().iter();
+    let facts = system.facts();
+    let presets = facts.presets.iter();
     let presets = presets.map(|(name, about)| json!({ "name": name, "about": about }));
     let robots = app.registry().robots_of(system);
     let names: Vec<&str> = robots.iter().map(|robot| robot.name).collect();
@@ -77,14 +80,14 @@ fn json_of(app: &App, system: &dyn SystemEntry) -> Value {
     let refused =
         others.filter_map(|robot| Some((robot.name.to_owned(), system.why_not(robot)?.into())));
     json!({
-        "name": system.name(),
-        "title": system.title(),
-        "about": system.about(),
-        "paper": system.is_paper(),
-        "learns": system.learns(),
-        "drives": system.drives(),
-        "maps_logs": system.log_mapper().is_some(),
-        "baseline": system.baseline().is_some(),
+        "name": facts.name,
+        "title": facts.title,
+        "about": facts.about,
+        "paper": facts.is_paper,
+        "learns": facts.learns,
+        "drives": facts.drives,
+        "maps_logs": facts.log_mapper.is_some(),
+        "baseline": facts.baseline.is_some(),
         "presets": presets.collect::<Vec<Value>>(),
         "robots": names,
         "why_not": refused.collect::<serde_json::Map<String, Value>>(),

@@ -1,48 +1,24 @@
 use crate::cast::Agent;
-use crate::registry::{Setup, SystemEntry};
+use crate::registry::{Setup, SystemEntry, SystemFacts};
 use crate::{BoxError, Outing};
 
 /// A baseline, which learns no map.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct BaselineEntry(pub(super) Agent);
+pub(super) struct BaselineEntry(pub(super) Agent, pub(super) &'static str);
 
 impl SystemEntry for BaselineEntry {
-    fn name(&self) -> &'static str {
-        match self.0 {
-            Agent::Random => "random",
-            Agent::Avoid => "avoid",
-            Agent::WallFollow => "wall-follow",
-            Agent::Oracle => "oracle",
-            Agent::UnlocalizedOracle => "unlocalized-oracle",
+    fn facts(&self) -> SystemFacts {
+        let Self(agent, name) = *self;
+        SystemFacts {
+            title: agent.name(),
+            about: agent.description(),
+            is_paper: true,
+            learns: false,
+            baseline: Some(agent),
+            why_no_log: "it learns no map",
+            claims: false,
+            ..SystemFacts::new(name)
         }
-    }
-
-    fn title(&self) -> &'static str {
-        self.0.name()
-    }
-
-    fn about(&self) -> &'static str {
-        self.0.description()
-    }
-
-    fn is_paper(&self) -> bool {
-        true
-    }
-
-    fn learns(&self) -> bool {
-        false
-    }
-
-    fn baseline(&self) -> Option<Agent> {
-        Some(self.0)
-    }
-
-    fn why_no_log(&self) -> &'static str {
-        "it learns no map"
-    }
-
-    fn claims(&self) -> bool {
-        false
     }
 
     fn learner(&self, _setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {

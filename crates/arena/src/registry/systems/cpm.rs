@@ -16,7 +16,7 @@ use crate::drawing;
 use crate::pioneer::{CORRIDOR_WIDTH, body};
 use crate::registry::{
     LearnedMap, LogMapper, MapText, Registry, RobotEntry, RobotKind, Setup, Start, SystemEntry,
-    because,
+    SystemFacts,
 };
 use crate::{BoxError, HasSimulated, Outing, Sent};
 
@@ -50,62 +50,32 @@ const PRESETS: [(&str, &str); 2] = [
 ];
 
 impl SystemEntry for CpmEntry {
-    fn name(&self) -> &'static str {
+    fn facts(&self) -> SystemFacts {
+        let both = SystemFacts {
+            needs: "needs infrared sensors or a plain laser ring",
+            kinds: &[RobotKind::Epuck, RobotKind::Laser],
+            own_robot: RobotEntry::EPUCK.name,
+            why_no_log: "it tells ways apart by patterns of infrared readings: give cpm-better",
+            drives: true,
+            ..SystemFacts::new("cpm")
+        };
         match self.is_paper {
-            true => "cpm",
-            false => "cpm-better",
+            true => SystemFacts {
+                title: "CPM",
+                about: "turns paths into sequences of common patterns, and reasons about junctions",
+                is_paper: true,
+                presets: &PAPERS_PRESETS,
+                ..both
+            },
+            false => SystemFacts {
+                name: "cpm-better",
+                title: "CPM Better",
+                about: "adds dead reckoning and several hypotheses to common patterns; corridors alone",
+                presets: &PRESETS,
+                log_mapper: Some(LogMapper::Cpm),
+                ..both
+            },
         }
-    }
-
-    fn title(&self) -> &'static str {
-        match self.is_paper {
-            true => "CPM",
-            false => "CPM Better",
-        }
-    }
-
-    fn about(&self) -> &'static str {
-        match self.is_paper {
-            true => "turns paths into sequences of common patterns, and reasons about junctions",
-            false => {
-                "adds dead reckoning and several hypotheses to common patterns; corridors alone"
-            }
-        }
-    }
-
-    fn is_paper(&self) -> bool {
-        self.is_paper
-    }
-
-    fn needs(&self) -> &'static str {
-        "needs infrared sensors or a plain laser ring"
-    }
-
-    fn kinds(&self) -> &'static [RobotKind] {
-        &[RobotKind::Epuck, RobotKind::Laser]
-    }
-
-    fn own_robot(&self) -> &'static str {
-        RobotEntry::EPUCK.name
-    }
-
-    fn presets(&self) -> &'static [(&'static str, &'static str)] {
-        match self.is_paper {
-            true => &PAPERS_PRESETS,
-            false => &PRESETS,
-        }
-    }
-
-    fn log_mapper(&self) -> Option<LogMapper> {
-        (!self.is_paper).then_some(LogMapper::Cpm)
-    }
-
-    fn why_no_log(&self) -> &'static str {
-        "it tells ways apart by patterns of infrared readings: give cpm-better"
-    }
-
-    fn drives(&self) -> bool {
-        true
     }
 
     fn abstains(&self, maze: &Maze) -> Option<String> {
@@ -119,16 +89,12 @@ impl SystemEntry for CpmEntry {
         setup.anew(self.name())?;
         let robust = CpmConfig::robust();
         let mode = match self.is_paper {
-            true => {
-                let names = PAPERS_PRESETS.map(|(name, _)| name);
-                setup
-                    .settings
-                    .preset(names.into_iter().zip([papers_mode(setup)]))?
-            }
+            true => setup
+                .settings
+                .preset(&PAPERS_PRESETS, [papers_mode(setup)])?,
             false => {
-                let names = PRESETS.map(|(name, _)| name);
                 let modes = [Mode::Reckoned(robust), Mode::Unlearned(robust)];
-                setup.settings.preset(names.into_iter().zip(modes))?
+                setup.settings.preset(&PRESETS, modes)?
             }
         };
         let config = setup.settings.over(&mode.config())?;
@@ -158,7 +124,7 @@ impl SystemEntry for CpmEntry {
     }
 
     fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, BoxError> {
-        Ok(Box::new(read(map)?))
+        Ok(Box::new(map.parsed(MapFile::from_json)?))
     }
 }
 
@@ -172,15 +138,11 @@ fn papers_mode(setup: &Setup<'_>) -> Mode {
     Mode::Paper(config)
 }
 
-fn read(map: &MapText) -> Result<MapFile, BoxError> {
-    MapFile::from_json(&map.text).map_err(|error| because(&map.name, error))
-}
-
 /// Returns the maps of all files, which must use the same patterns.
 fn read_all(maps: &[MapText]) -> Result<Vec<MapFile>, BoxError> {
     let mut files: Vec<MapFile> = Vec::new();
     for map in maps {
-        let file = read(map)?;
+        let file = map.parsed(MapFile::from_json)?;
         let version = |file: &MapFile| file.patterns.dictionary().version();
         if files
             .first()
@@ -260,20 +222,14 @@ impl Ground {
         let origin = setup.origin(&self.course);
         let course = self.course;
         let steps = setup.steps.unwrap_or_else(|| patient(&course));
-        if course.is_free() {
-            let sent = Sent::new(course, robot, steps, cpm)
-                .choosing(cpm::Cpm::on)
-                .keeping(move |cpm, _| keep(cpm, mode, &origin));
-            return Box::new(sent);
-        }
+        let has_cells = !course.is_free();
         let (world, ours) = (course.world.clone(), course.maze.clone());
         let sent = Sent::new(course, robot, steps, cpm)
             .choosing(cpm::Cpm::on)
             .keeping(move |cpm, _| keep(cpm, mode, &origin))
             .lying(move |cpm| {
-                let layout = cpm
-                    .explorer()
-                    .map(|explorer| Layout::of(explorer.mapper.map(), &ours));
+                let explorer = cpm.explorer().filter(|_| has_cells);
+                let layout = explorer.map(|explorer| Layout::of(explorer.mapper.map(), &ours));
                 let places = layout.iter().flat_map(Layout::places);
                 places
                     .map(|(JunctionId(id), cell)| (id, world.cell_centre(cell)))
@@ -312,7 +268,7 @@ fn keep(cpm: &cpm::Cpm, mode: Mode, origin: &Origin) -> Result<Option<String>, B
 impl LearnedMap for MapFile {
     fn lines(&self) -> Vec<String> {
         let Self {
-            origin: Origin { world, seed, .. },
+            origin,
             patterns,
             map,
             ..
@@ -322,7 +278,7 @@ impl LearnedMap for MapFile {
             None => "no way to the goal is known: learn until it is found".to_owned(),
         };
         vec![
-            format!("{world}, seed {seed}"),
+            format!("{}, seed {}", origin.world, origin.seed),
             format!(
                 "a dictionary of {} patterns, of {} units in {} clusters",
                 patterns.dictionary().len(),
@@ -341,15 +297,15 @@ impl LearnedMap for MapFile {
 
     fn json(&self) -> Value {
         let Self {
-            origin: Origin { world, seed, .. },
+            origin,
             mode,
             patterns,
             map,
         } = self;
         json!({
             "system": self.system(),
-            "maze": world,
-            "seed": seed,
+            "maze": origin.world,
+            "seed": origin.seed,
             "mode": mode,
             "units": patterns.unit_count(),
             "clusters": patterns.cluster_count(),
@@ -370,7 +326,7 @@ impl LearnedMap for MapFile {
         }
         Ok(drawing::cpm::over_maze(
             &self.map,
-            &course_of(self, terrain)?,
+            &self.course(&self.origin.world, terrain)?,
         ))
     }
 
@@ -417,20 +373,13 @@ impl LearnedMap for MapFile {
         cpm::doubt(&self.map)
     }
 
-    fn course(&self, _world: &str, terrain: &Terrain) -> Result<Course, BoxError> {
-        course_of(self, terrain)
+    fn course(&self, world: &str, terrain: &Terrain) -> Result<Course, BoxError> {
+        let robot = Registry::current().robot(&self.origin.robot);
+        Ok(match robot.map(|robot| robot.kind()) {
+            Some(RobotKind::Laser | RobotKind::Camera) => terrain.course(world, &body())?,
+            _ => epuck_course_on(world, terrain)?,
+        })
     }
-}
-
-/// Returns the maze that a map was learned in, prepared for the robot that learned it.
-fn course_of(file: &MapFile, terrain: &Terrain) -> Result<Course, BoxError> {
-    let robot = Registry::current().robot(&file.origin.robot);
-    Ok(match robot.map(|robot| robot.kind()) {
-        Some(RobotKind::Laser | RobotKind::Camera) => {
-            terrain.course(&file.origin.world, &body())?
-        }
-        _ => epuck_course_on(&file.origin.world, terrain)?,
-    })
 }
 
 /// Returns the number of observations from the start of the map to the goal, by the best way that

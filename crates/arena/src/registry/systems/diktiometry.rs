@@ -24,7 +24,8 @@ use crate::drawing::diktiometry::{PlaceMark, map_over_world, place_marks};
 use crate::episode::START_STREAM;
 use crate::registry::view_file::ViewFile;
 use crate::registry::{
-    LearnedMap, LogMapper, MapText, RobotEntry, RobotKind, Setup, Start, SystemEntry, because, slug,
+    LearnedMap, LogMapper, MapText, RobotEntry, RobotKind, Setup, Start, SystemEntry, SystemFacts,
+    slug,
 };
 use crate::{BoxError, Outing, Sent};
 
@@ -98,75 +99,37 @@ struct Driving {
 }
 
 impl SystemEntry for DiktiometryEntry {
-    fn name(&self) -> &'static str {
+    fn facts(&self) -> SystemFacts {
+        let both = SystemFacts {
+            needs: "needs a compass and a camera that sees colours, or a laser ring",
+            kinds: &[RobotKind::Camera, RobotKind::Laser],
+            own_robot: RobotEntry::CAMERA_PIONEER.name,
+            presets: &PRESETS,
+            arena_preset: Some(ARENA),
+            why_no_log: "it keeps no journal of its moves: give diktiometry-better",
+            drives: true,
+            places: PlaceRule::Corners,
+            ..SystemFacts::new("diktiometry")
+        };
         match self.is_paper {
-            true => "diktiometry",
-            false => "diktiometry-better",
+            true => SystemFacts {
+                title: "Diktiometry",
+                about: "maps places with bounds on where they lie, and advises the planner",
+                is_paper: true,
+                ..both
+            },
+            false => SystemFacts {
+                name: "diktiometry-better",
+                title: "Diktiometry Better",
+                about: "maps places that look alike, with a journal of all its moves, and advises the planner",
+                log_mapper: Some(LogMapper::Diktiometry),
+                ..both
+            },
         }
-    }
-
-    fn title(&self) -> &'static str {
-        match self.is_paper {
-            true => "Diktiometry",
-            false => "Diktiometry Better",
-        }
-    }
-
-    fn about(&self) -> &'static str {
-        match self.is_paper {
-            true => "maps places with bounds on where they lie, and advises the planner",
-            false => {
-                "maps places that look alike, with a journal of all its moves, and advises the planner"
-            }
-        }
-    }
-
-    fn is_paper(&self) -> bool {
-        self.is_paper
-    }
-
-    fn needs(&self) -> &'static str {
-        "needs a compass and a camera that sees colours, or a laser ring"
-    }
-
-    fn kinds(&self) -> &'static [RobotKind] {
-        &[RobotKind::Camera, RobotKind::Laser]
-    }
-
-    fn own_robot(&self) -> &'static str {
-        RobotEntry::CAMERA_PIONEER.name
-    }
-
-    fn presets(&self) -> &'static [(&'static str, &'static str)] {
-        &PRESETS
-    }
-
-    fn arena_preset(&self) -> Option<&'static str> {
-        Some(ARENA)
-    }
-
-    fn log_mapper(&self) -> Option<LogMapper> {
-        (!self.is_paper).then_some(LogMapper::Diktiometry)
-    }
-
-    fn why_no_log(&self) -> &'static str {
-        "it keeps no journal of its moves: give diktiometry-better"
-    }
-
-    fn drives(&self) -> bool {
-        true
-    }
-
-    fn places(&self) -> PlaceRule {
-        PlaceRule::Corners
     }
 
     fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
-        if setup
-            .settings
-            .preset(PRESETS.map(|(name, _)| (name, name)))?
-            == ARENA
-        {
+        if setup.settings.preset(&PRESETS, [false, true])? {
             return self.sent(setup);
         }
         if setup.start.is_some_and(|start| start != Start::Random) {
@@ -202,7 +165,7 @@ impl SystemEntry for DiktiometryEntry {
         let [map] = maps else {
             return Err("the diktiometry drives by one map: give --map once".into());
         };
-        let file = read(map)?;
+        let file = map.parsed(SurveyFile::from_json)?;
         // The goal is where the robot came to it while learning.
         let goal = file.goal();
         let SurveyFile { surveyed, observer } = file;
@@ -235,7 +198,7 @@ impl SystemEntry for DiktiometryEntry {
         // By the preset of the arena it keeps places and links alone.
         Ok(match ViewFile::read(self.name(), &map.text) {
             Some(file) => Box::new(file),
-            None => Box::new(Learned(read(map)?)),
+            None => Box::new(map.parsed(SurveyFile::from_json)?),
         })
     }
 }
@@ -262,7 +225,7 @@ impl DiktiometryEntry {
         map: &MapText,
         setup: &Setup<'_>,
     ) -> Result<(Surveyed, Option<Observer>, u32), BoxError> {
-        let file = read(map)?;
+        let file = map.parsed(SurveyFile::from_json)?;
         let system = file.system();
         if system != self.name() {
             return Err(
@@ -292,10 +255,6 @@ impl DiktiometryEntry {
         surveyed.heed = going_on.heed;
         Ok((surveyed, Some(observer), going_on.moves))
     }
-}
-
-fn read(map: &MapText) -> Result<SurveyFile, BoxError> {
-    SurveyFile::from_json(&map.text).map_err(|error| because(&map.name, error))
 }
 
 /// Returns the robot with its noise.
@@ -341,21 +300,17 @@ impl DiktiometryEntry {
         let routines = config.routines(furniture.corridor_width);
         let paper = DiktiometerConfig::paper(routines, mapping);
         let (course, seed) = (office.course.clone(), setup.seed);
-        let steps = setup.steps.unwrap_or(u32::MAX);
-        let origin = setup.origin(&course);
         Ok(match config.sight {
             PlaceCue::Laser { columns } => {
                 let robot = setup.robot.laser_model(made.laser_robot())?;
                 let robot = course.robot_at(pose, robot, seed)?;
                 let system = Diktiometer::new(paper, LaserEye { columns }, seed);
-                let sent = Sent::new(course, robot, steps, system);
-                Box::new(sent.keeping_its_view(self.name(), origin))
+                setup.send(self.name(), course, robot, system)
             }
             _ => {
                 let robot = office_robot(&office, &made, pose, seed)?;
                 let system = Diktiometer::new(paper, config.sight, seed);
-                let sent = Sent::new(course, robot, steps, system);
-                Box::new(sent.keeping_its_view(self.name(), origin))
+                setup.send(self.name(), course, robot, system)
             }
         })
     }
@@ -391,22 +346,17 @@ fn refurnished(surveyed: &Surveyed, setup: &Setup<'_>) -> Result<Office, BoxErro
     Ok(Office::new(&maze.maze, surveyed.office.config())?.named(setup.world))
 }
 
-/// A survey read from a file.
-struct Learned(SurveyFile);
-
-impl Learned {
-    fn places(&self) -> Vec<PlaceMark> {
-        place_marks(&self.0.observer, self.0.surveyed.start)
-    }
+fn places(file: &SurveyFile) -> Vec<PlaceMark> {
+    place_marks(&file.observer, file.surveyed.start)
 }
 
-impl LearnedMap for Learned {
+impl LearnedMap for SurveyFile {
     fn lines(&self) -> Vec<String> {
-        let (observer, score) = (&self.0.observer, self.0.score());
+        let (observer, score) = (&self.observer, self.score());
         let first = format!(
             "{}, {}, {} moves: {} places for {} true ones, purity {:.3}; the robot is at place {}",
-            self.0.system(),
-            self.0.surveyed.origin.world,
+            self.system(),
+            self.surveyed.origin.world,
             observer.moves(),
             score.places,
             score.visited,
@@ -415,7 +365,7 @@ impl LearnedMap for Learned {
         );
         let mut lines = vec![first];
         let paths = &observer.map().paths;
-        for place in self.places() {
+        for place in places(self) {
             let links = paths.outgoing(PlaceId(place.id)).map(|(_, link)| link);
             let ways = links.map(|link| format!("{} to {}", direction(link), link.to.0));
             let ways: Vec<String> = ways.collect();
@@ -427,10 +377,10 @@ impl LearnedMap for Learned {
     }
 
     fn json(&self) -> Value {
-        let (file, score) = (&self.0, self.0.score());
+        let (file, score) = (self, self.score());
         let paths = &file.observer.map().paths;
         let links_of = |id: u32| paths.outgoing(PlaceId(id)).map(|(_, link)| link);
-        let drawn = self.places();
+        let drawn = places(self);
         let places = drawn.iter().map(|place| {
             let Bounds { min, max } = place.bounds;
             let links: Vec<Value> = links_of(place.id)
@@ -457,12 +407,12 @@ impl LearnedMap for Learned {
     }
 
     fn drawing(&self, _terrain: &Terrain) -> Result<Drawing, BoxError> {
-        let world = &self.0.surveyed.office.course.world;
-        Ok(map_over_world(world, &self.0.observer, &self.places()))
+        let world = &self.surveyed.office.course.world;
+        Ok(map_over_world(world, &self.observer, &places(self)))
     }
 
     fn plan(&self, from: Option<u32>, to: Option<u32>) -> Result<Option<Vec<String>>, BoxError> {
-        let observer = &self.0.observer;
+        let observer = &self.observer;
         let paths = &observer.map().paths;
         let place = |number: u32| {
             paths.resolve(PlaceId(number)).ok_or_else(|| {
@@ -474,7 +424,7 @@ impl LearnedMap for Learned {
             })
         };
         let from = from.map_or(Ok(observer.place()), place)?;
-        let (to, beyond) = match (to, self.0.goal()) {
+        let (to, beyond) = match (to, self.goal()) {
             (Some(to), _) => (place(to)?, None),
             (None, Some(LandmarkSpot::Place(goal))) => (goal, None),
             (None, Some(LandmarkSpot::Way(last, way))) => (last, Some(way)),
@@ -503,18 +453,18 @@ impl LearnedMap for Learned {
     }
 
     fn view(&self) -> Result<MapView, BoxError> {
-        Ok(Mapper::map(&self.0.observer))
+        Ok(Mapper::map(&self.observer))
     }
 
     fn course(&self, _world: &str, terrain: &Terrain) -> Result<Course, BoxError> {
         let maze = &terrain.maze(OFFICE)?.maze;
-        Ok(Office::new(maze, self.0.surveyed.office.config())?.course)
+        Ok(Office::new(maze, self.surveyed.office.config())?.course)
     }
 
     /// Doorways are true places, and lie between cells.
     fn judged_apart(&self) -> Option<Option<String>> {
-        let doorways = self.0.surveyed.office.doorways();
-        (doorways > 0).then(|| self.0.complaint(Task::Explore))
+        let doorways = self.surveyed.office.doorways();
+        (doorways > 0).then(|| self.complaint(Task::Explore))
     }
 }
 

@@ -1,11 +1,10 @@
 use serde::{Deserialize, Serialize};
 use tolman_robot::pioneer_2dx;
-use tolman_sim::robots::{Pioneer2dx, Pioneer2dxConfig};
 use tolman_systems::gngslam::{OfflineSlam, OfflineSlamConfig};
 
 use super::WIDE;
-use crate::registry::{DemoWorld, RobotEntry, RobotKind, Setup, SystemEntry};
-use crate::{BoxError, Outing, Sent};
+use crate::registry::{DemoWorld, RobotEntry, RobotKind, Setup, SystemEntry, SystemFacts};
+use crate::{BoxError, Outing};
 
 /// [`OfflineSlam`], which gathers records until it has as many as it wants, and then learns a map
 /// from them.
@@ -33,53 +32,22 @@ struct Gathering {
 }
 
 impl SystemEntry for GngSlamEntry {
-    fn name(&self) -> &'static str {
-        "gng-slam"
-    }
-
-    fn title(&self) -> &'static str {
-        "GNG-SLAM"
-    }
-
-    fn about(&self) -> &'static str {
-        "lets a neural gas learn images, sonar and odometry, after all is gathered"
-    }
-
-    fn is_paper(&self) -> bool {
-        true
-    }
-
-    fn needs(&self) -> &'static str {
-        "tells places by what a camera sees"
-    }
-
-    fn kinds(&self) -> &'static [RobotKind] {
-        &[RobotKind::Pioneer2dx]
-    }
-
-    fn own_robot(&self) -> &'static str {
-        RobotEntry::PIONEER_2DX.name
-    }
-
-    fn presets(&self) -> &'static [(&'static str, &'static str)] {
-        &PRESETS
-    }
-
-    fn arena_preset(&self) -> Option<&'static str> {
-        Some(ARENA)
-    }
-
-    fn why_no_log(&self) -> &'static str {
-        "it tells places by what a camera sees, which a log of a laser does not have"
-    }
-
-    /// It is done when it has its records.
-    fn claims(&self) -> bool {
-        false
-    }
-
-    fn demo(&self) -> (DemoWorld, u64) {
-        (DemoWorld::Small, 1)
+    fn facts(&self) -> SystemFacts {
+        SystemFacts {
+            title: "GNG-SLAM",
+            about: "lets a neural gas learn images, sonar and odometry, after all is gathered",
+            is_paper: true,
+            needs: "tells places by what a camera sees",
+            kinds: &[RobotKind::Pioneer2dx],
+            own_robot: RobotEntry::PIONEER_2DX.name,
+            presets: &PRESETS,
+            arena_preset: Some(ARENA),
+            why_no_log: "it tells places by what a camera sees, which a log of a laser does not have",
+            // It is done when it has its records.
+            claims: false,
+            demo: (DemoWorld::Small, 1),
+            ..SystemFacts::new("gng-slam")
+        }
     }
 
     fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
@@ -90,17 +58,10 @@ impl SystemEntry for GngSlamEntry {
         let mut config = OfflineSlamConfig::paper();
         let by_size = RECORDS_A_CELL * course.maze.reachable().count();
         let presets = [config.records, by_size.max(2)].map(|records| Gathering { records });
-        let names = PRESETS.map(|(name, _)| name);
-        let gathering = setup.settings.preset(names.into_iter().zip(presets))?;
+        let gathering = setup.settings.preset(&PRESETS, presets)?;
         config.records = setup.settings.over(&gathering)?.records;
-        let robot = setup
-            .condition
-            .pioneer_2dx(Pioneer2dxConfig::paper(), setup.seed);
-        let robot = course.robot_at(start, Pioneer2dx::new(robot)?, setup.seed)?;
-        let steps = setup.steps.unwrap_or(u32::MAX);
+        let robot = setup.pioneer_2dx_at(&course, start)?;
         let system = OfflineSlam::new(config, setup.seed);
-        let origin = setup.origin(&course);
-        let sent = Sent::new(course, robot, steps, system);
-        Ok(Box::new(sent.keeping_its_view(self.name(), origin)))
+        Ok(setup.send(self.name(), course, robot, system))
     }
 }

@@ -5,18 +5,17 @@ use tolman_robot::{
     Body, Bumps, Landmark, MapView, Mapper, Ring, Rolls, TakesSnapshots, TurnTranslate, pioneer_2dx,
 };
 use tolman_sim::Model;
-use tolman_sim::robots::{Pioneer2dx, Pioneer2dxConfig};
-use tolman_systems::Origin;
 use tolman_systems::gngslam::{ExplorationPolicy, MapFile, OnlineSlam, OnlineSlamConfig};
 
 use super::WIDE;
 use crate::course::{Course, Terrain};
 use crate::drawing::places_over_world;
 use crate::gngslam::LaidOver;
+use crate::outing::moved;
 use crate::pioneer::body;
 use crate::registry::{
     DemoWorld, LearnedMap, LogMapper, MapText, Registry, RobotEntry, RobotKind, Setup, SystemEntry,
-    because,
+    SystemFacts,
 };
 use crate::{BoxError, Depicted, Founding, HasSimulated, Outing, Sent, Simulated};
 
@@ -47,76 +46,41 @@ const LEARNING_STEPS: u32 = 60_000;
 const DRIVING_STEPS: u32 = 20_000;
 
 impl SystemEntry for GngSlamBetterEntry {
-    fn name(&self) -> &'static str {
-        "gng-slam-better"
-    }
-
-    fn title(&self) -> &'static str {
-        "GNG-SLAM Better"
-    }
-
-    fn about(&self) -> &'static str {
-        "maps places by image, sonar or laser, and corrects its pose by them while it learns"
-    }
-
-    fn needs(&self) -> &'static str {
-        "needs snapshots of what is around, by sonars or a laser ring"
-    }
-
-    fn kinds(&self) -> &'static [RobotKind] {
-        &[RobotKind::Pioneer2dx, RobotKind::Laser]
-    }
-
-    fn own_robot(&self) -> &'static str {
-        RobotEntry::PIONEER_2DX.name
-    }
-
-    fn presets(&self) -> &'static [(&'static str, &'static str)] {
-        &PRESETS
-    }
-
-    fn arena_preset(&self) -> Option<&'static str> {
-        Some(BY_CHANCE)
-    }
-
-    fn log_mapper(&self) -> Option<LogMapper> {
-        Some(LogMapper::PlaceGraph)
-    }
-
-    fn drives(&self) -> bool {
-        true
-    }
-
-    fn claims(&self) -> bool {
-        false
+    fn facts(&self) -> SystemFacts {
+        SystemFacts {
+            title: "GNG-SLAM Better",
+            about: "maps places by image, sonar or laser, and corrects its pose by them while it learns",
+            needs: "needs snapshots of what is around, by sonars or a laser ring",
+            kinds: &[RobotKind::Pioneer2dx, RobotKind::Laser],
+            own_robot: RobotEntry::PIONEER_2DX.name,
+            presets: &PRESETS,
+            arena_preset: Some(BY_CHANCE),
+            log_mapper: Some(LogMapper::PlaceGraph),
+            drives: true,
+            claims: false,
+            demo: (DemoWorld::Small, 1),
+            ..SystemFacts::new("gng-slam-better")
+        }
     }
 
     fn sees_cells(&self, _kind: RobotKind) -> u32 {
         3
     }
 
-    fn demo(&self) -> (DemoWorld, u64) {
-        (DemoWorld::Small, 1)
-    }
-
     fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
-        let names = PRESETS.map(|(name, _)| name);
         let ways = [ExplorationPolicy::ToTheUnknown, ExplorationPolicy::ByChance];
-        let explore = setup.settings.preset(names.into_iter().zip(ways))?;
-        let before = setup.from.map(read).transpose()?;
+        let explore = setup.settings.preset(&PRESETS, ways)?;
+        let before = (setup.from).map(|map| map.parsed(MapFile::from_json));
+        let before = before.transpose()?;
         let mut preset = match &before {
             Some(before) => before.config,
             None => usual(&setup.robot),
         };
         preset.explore = explore;
         let config: OnlineSlamConfig = setup.settings.over(&preset)?;
-        send(setup, |ground| {
+        send(setup, |start| {
             let (system, sites, world_from_map) = match before {
-                None => (
-                    OnlineSlam::new(config, setup.seed),
-                    Vec::new(),
-                    ground.start,
-                ),
+                None => (OnlineSlam::new(config, setup.seed), Vec::new(), start),
                 Some(before) => {
                     let laid = LaidOver::of(&before.graph, &before.sites);
                     let system = OnlineSlam::on(before.graph, config, setup.seed);
@@ -139,7 +103,7 @@ impl SystemEntry for GngSlamBetterEntry {
         let [map] = maps else {
             return Err("gng-slam-better drives by one map: give --map once".into());
         };
-        let file = read(map)?;
+        let file = map.parsed(MapFile::from_json)?;
         let config: OnlineSlamConfig = setup.settings.over(&file.config)?;
         send(setup, |_| {
             let laid = LaidOver::of(&file.graph, &file.sites);
@@ -155,12 +119,8 @@ impl SystemEntry for GngSlamBetterEntry {
     }
 
     fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, BoxError> {
-        Ok(Box::new(read(map)?))
+        Ok(Box::new(map.parsed(MapFile::from_json)?))
     }
-}
-
-fn read(map: &MapText) -> Result<MapFile, BoxError> {
-    MapFile::from_json(&map.text).map_err(|error| because(&map.name, error))
 }
 
 /// Returns our usual configuration for a robot.
@@ -181,12 +141,6 @@ fn body_of(kind: RobotKind) -> Body {
     }
 }
 
-/// The course that a robot is sent into.
-struct Ground {
-    course: Course,
-    start: Pose,
-}
-
 /// Task, robot and world of an outing.
 struct Mission {
     system: OnlineSlam,
@@ -202,35 +156,31 @@ struct Mission {
 /// Puts the robot down and returns it ready for its `mission`.
 fn send(
     setup: &Setup<'_>,
-    mission: impl FnOnce(&Ground) -> Mission,
+    mission: impl FnOnce(Pose) -> Mission,
 ) -> Result<Box<dyn Outing>, BoxError> {
     let kind = setup.robot.kind();
     let course = setup.course(&body_of(kind), WIDE)?;
     let start = setup.start_anywhere(&course, &body_of(kind))?;
-    let ground = Ground { course, start };
-    let mission = mission(&ground);
+    let mission = mission(start);
     match kind {
         RobotKind::Laser | RobotKind::Camera => {
             let mut config = setup.robot.laser_config();
             config.ring = Ring::full(RING.0, RING.1);
-            let robot = setup.laser_at(&ground.course, start, config)?;
-            ground.send(setup, mission, robot)
+            let robot = setup.laser_at(&course, start, config)?;
+            mission.send(setup, course, robot)
         }
         _ => {
-            let config = setup
-                .condition
-                .pioneer_2dx(Pioneer2dxConfig::paper(), setup.seed);
-            let robot = (ground.course).robot_at(start, Pioneer2dx::new(config)?, setup.seed)?;
-            ground.send(setup, mission, robot)
+            let robot = setup.pioneer_2dx_at(&course, start)?;
+            mission.send(setup, course, robot)
         }
     }
 }
 
-impl Ground {
+impl Mission {
     fn send<M>(
         self,
         setup: &Setup<'_>,
-        mission: Mission,
+        course: Course,
         robot: Simulated<M>,
     ) -> Result<Box<dyn Outing>, BoxError>
     where
@@ -239,15 +189,14 @@ impl Ground {
             + 'static,
         Simulated<M>: HasSimulated,
     {
-        let origin = setup.origin(&self.course);
-        let Mission {
+        let origin = setup.origin(&course);
+        let Self {
             system,
             sites,
             world_from_map,
             config,
             steps,
-        } = mission;
-        let course = self.course;
+        } = self;
         let sent = Sent::new(course, robot, setup.steps.unwrap_or(steps), system)
             .laid_at(world_from_map)
             .counting(|system| system.graph().places().len())
@@ -274,7 +223,6 @@ fn with(before: &[Point], made: &[Founding]) -> Vec<Point> {
 
 impl LearnedMap for MapFile {
     fn lines(&self) -> Vec<String> {
-        let Origin { world, seed, .. } = &self.origin;
         let goal = match goal_of(self) {
             Some(place) => format!(
                 "the goal was sensed at {} places, with place {place} in the middle",
@@ -283,7 +231,7 @@ impl LearnedMap for MapFile {
             None => "the goal was never sensed: learn longer".to_owned(),
         };
         vec![
-            format!("{world}, seed {seed}"),
+            format!("{}, seed {}", self.origin.world, self.origin.seed),
             format!(
                 "{} places, {} ways between them, {} edges of the pose graph",
                 self.graph.places().len(),
@@ -295,12 +243,11 @@ impl LearnedMap for MapFile {
     }
 
     fn json(&self) -> Value {
-        let Origin { world, seed, .. } = &self.origin;
         let laid = LaidOver::of(&self.graph, &self.sites);
         json!({
             "system": GngSlamBetterEntry.name(),
-            "maze": world,
-            "seed": seed,
+            "maze": self.origin.world,
+            "seed": self.origin.seed,
             "config": self.config,
             "places": self.graph.places().len(),
             "links": self.graph.map().links.len() / 2,
@@ -311,14 +258,11 @@ impl LearnedMap for MapFile {
     }
 
     fn drawing(&self, terrain: &Terrain) -> Result<Drawing, BoxError> {
-        let course = course_of(self, terrain)?;
+        let course = self.course(&self.origin.world, terrain)?;
         let laid = LaidOver::of(&self.graph, &self.sites).ok_or(
             "the map has no true positions of its places, so it cannot be drawn over a world: leave --svg out",
         )?;
-        let mut map = view(self);
-        for place in &mut map.places {
-            place.position = place.position.map(|at| laid.world_from_map.transform(at));
-        }
+        let map = moved(system(self).map(), laid.world_from_map);
         Ok(places_over_world(&course, &map))
     }
 
@@ -349,18 +293,19 @@ impl LearnedMap for MapFile {
     }
 
     fn view(&self) -> Result<MapView, BoxError> {
-        Ok(view(self))
+        Ok(system(self).map())
     }
 
-    fn course(&self, _world: &str, terrain: &Terrain) -> Result<Course, BoxError> {
-        course_of(self, terrain)
+    fn course(&self, world: &str, terrain: &Terrain) -> Result<Course, BoxError> {
+        let robot = Registry::current().robot(&self.origin.robot);
+        let kind = robot.map_or(RobotKind::Pioneer2dx, |robot| robot.kind());
+        Ok(terrain.course_with(world, &body_of(kind), WIDE)?)
     }
 }
 
-/// Returns the places and links of a map, with the landmarks.
-fn view(file: &MapFile) -> MapView {
-    let system = OnlineSlam::on(file.graph.clone(), file.config, 0);
-    system.with_sightings(file.sightings.clone()).map()
+/// Returns the system with this map.
+fn system(file: &MapFile) -> OnlineSlam {
+    OnlineSlam::on(file.graph.clone(), file.config, 0).with_sightings(file.sightings.clone())
 }
 
 /// Returns the number of places where the goal was sensed.
@@ -373,15 +318,5 @@ fn goals(file: &MapFile) -> usize {
 
 /// Returns the place in the middle of those where the goal was sensed.
 fn goal_of(file: &MapFile) -> Option<u32> {
-    let system = OnlineSlam::on(file.graph.clone(), file.config, 0);
-    system
-        .with_sightings(file.sightings.clone())
-        .place_with(Landmark::Goal)
-}
-
-/// Returns the maze or world that a map was learned in, prepared for the robot that learned it.
-fn course_of(file: &MapFile, terrain: &Terrain) -> Result<Course, BoxError> {
-    let robot = Registry::current().robot(&file.origin.robot);
-    let kind = robot.map_or(RobotKind::Pioneer2dx, |robot| robot.kind());
-    Ok(terrain.course_with(&file.origin.world, &body_of(kind), WIDE)?)
+    system(file).place_with(Landmark::Goal)
 }

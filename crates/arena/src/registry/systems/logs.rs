@@ -1,4 +1,4 @@
-use crate::registry::{LogMapper, RobotKind, Setup, SystemEntry};
+use crate::registry::{LogMapper, Setup, SystemEntry, SystemFacts};
 use crate::{BoxError, Outing};
 
 /// A mapper that only watches: it maps logs.
@@ -34,32 +34,16 @@ pub(super) const ODOMETRY: LogEntry = LogEntry {
 };
 
 impl SystemEntry for LogEntry {
-    fn name(&self) -> &'static str {
-        self.name
-    }
-
-    fn about(&self) -> &'static str {
-        self.about
-    }
-
-    fn needs(&self) -> &'static str {
-        "needs a log"
-    }
-
-    fn kinds(&self) -> &'static [RobotKind] {
-        &[]
-    }
-
-    fn learns(&self) -> bool {
-        false
-    }
-
-    fn log_mapper(&self) -> Option<LogMapper> {
-        Some(self.mapper)
-    }
-
-    fn claims(&self) -> bool {
-        false
+    fn facts(&self) -> SystemFacts {
+        SystemFacts {
+            about: self.about,
+            needs: "needs a log",
+            kinds: &[],
+            learns: false,
+            log_mapper: Some(self.mapper),
+            claims: false,
+            ..SystemFacts::new(self.name)
+        }
     }
 
     fn learner(&self, _setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {

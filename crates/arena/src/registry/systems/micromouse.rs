@@ -4,32 +4,22 @@ use tolman_systems::micromouse::system::{MazeMouse, MazeMouseConfig};
 
 use crate::micromouse::brief;
 use crate::pioneer::{CORRIDOR_WIDTH, body};
-use crate::registry::{Setup, Start, SystemEntry};
-use crate::{BoxError, Outing, Sent};
+use crate::registry::{Setup, Start, SystemEntry, SystemFacts};
+use crate::{BoxError, Outing};
 
 /// [`MazeMouse`], which is told the grid, its start and the goal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MicromouseEntry;
 
 impl SystemEntry for MicromouseEntry {
-    fn name(&self) -> &'static str {
-        "micromouse"
-    }
-
-    fn title(&self) -> &'static str {
-        "Micromouse"
-    }
-
-    fn about(&self) -> &'static str {
-        "is told the grid, the start and the goal, and explores wall by wall"
-    }
-
-    fn is_paper(&self) -> bool {
-        true
-    }
-
-    fn why_no_log(&self) -> &'static str {
-        WALLS
+    fn facts(&self) -> SystemFacts {
+        SystemFacts {
+            title: "Micromouse",
+            about: "is told the grid, the start and the goal, and explores wall by wall",
+            is_paper: true,
+            why_no_log: WALLS,
+            ..SystemFacts::new("micromouse")
+        }
     }
 
     fn abstains(&self, maze: &Maze) -> Option<String> {
@@ -49,10 +39,7 @@ impl SystemEntry for MicromouseEntry {
         );
         let mouse = MazeMouse::whole_maze(brief(maze)?, mouse)?;
         let robot = setup.laser_at(&course, start, config)?;
-        let steps = setup.steps.unwrap_or(u32::MAX);
-        let origin = setup.origin(&course);
-        let sent = Sent::new(course, robot, steps, mouse);
-        Ok(Box::new(sent.keeping_its_view(self.name(), origin)))
+        Ok(setup.send(self.name(), course, robot, mouse))
     }
 }
 

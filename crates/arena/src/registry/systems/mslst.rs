@@ -3,13 +3,13 @@ use alloc::sync::Arc;
 use serde_json::{Value, json};
 use tolman_draw::Drawing;
 use tolman_robot::MapView;
+use tolman_systems::Actor;
 use tolman_systems::mslst::{self, GrowthRecord, Learned, MapFile, MslstConfig};
-use tolman_systems::{Actor, Origin};
 
 use crate::course::{Course, Terrain};
 use crate::drawing::mslst::whole_graph_over_maze;
 use crate::pioneer::body;
-use crate::registry::{DemoWorld, LearnedMap, MapText, Setup, SystemEntry, because};
+use crate::registry::{DemoWorld, LearnedMap, MapText, Setup, SystemEntry, SystemFacts};
 use crate::{BoxError, Outing, Sent};
 
 /// [`mslst`] on a laser robot.
@@ -46,49 +46,26 @@ fn by_size(course: &Course) -> MslstConfig {
 }
 
 impl SystemEntry for MslstEntry {
-    fn name(&self) -> &'static str {
-        "mslst"
-    }
-
-    fn title(&self) -> &'static str {
-        "MSLST"
-    }
-
-    fn about(&self) -> &'static str {
-        "learns states from laser scans and a graph of them, and localizes by its recent history"
-    }
-
-    fn is_paper(&self) -> bool {
-        true
-    }
-
-    fn presets(&self) -> &'static [(&'static str, &'static str)] {
-        &PRESETS
-    }
-
-    fn arena_preset(&self) -> Option<&'static str> {
-        Some(ARENA)
-    }
-
-    fn drives(&self) -> bool {
-        true
-    }
-
-    /// It is done when it has used up its actions.
-    fn claims(&self) -> bool {
-        false
-    }
-
-    fn demo(&self) -> (DemoWorld, u64) {
-        (DemoWorld::Small, 42)
+    fn facts(&self) -> SystemFacts {
+        SystemFacts {
+            title: "MSLST",
+            about: "learns states from laser scans and a graph of them, and localizes by its recent history",
+            is_paper: true,
+            presets: &PRESETS,
+            arena_preset: Some(ARENA),
+            drives: true,
+            // It is done when it has used up its actions.
+            claims: false,
+            demo: (DemoWorld::Small, 42),
+            ..SystemFacts::new("mslst")
+        }
     }
 
     fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
         setup.anew(self.name())?;
         let (course, robot, stack) = setup.laser_robot()?;
         let presets = [MslstConfig::large(50.0), MslstConfig::j(), by_size(&course)];
-        let names = PRESETS.map(|(name, _)| name);
-        let preset = setup.settings.preset(names.into_iter().zip(presets))?;
+        let preset = setup.settings.preset(&PRESETS, presets)?;
         let config: MslstConfig = setup.settings.over(&preset)?;
         let origin = setup.origin(&course);
         let actor = Actor::seeded(mslst::Mslst::new(config), stack, setup.seed);
@@ -124,7 +101,7 @@ impl SystemEntry for MslstEntry {
         };
         let MapFile {
             config, learned, ..
-        } = MapFile::from_json(&map.text).map_err(|error| because(&map.name, error))?;
+        } = map.parsed(MapFile::from_json)?;
         let config: MslstConfig = setup.settings.over(&config)?;
         let (course, robot, stack) = setup.laser_robot()?;
         let sites = learned.survey.positions;
@@ -137,15 +114,14 @@ impl SystemEntry for MslstEntry {
     }
 
     fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, BoxError> {
-        let file = MapFile::from_json(&map.text).map_err(|error| because(&map.name, error))?;
-        Ok(Box::new(file))
+        Ok(Box::new(map.parsed(MapFile::from_json)?))
     }
 }
 
 impl LearnedMap for MapFile {
     fn lines(&self) -> Vec<String> {
         let Self {
-            origin: Origin { world, seed, .. },
+            origin,
             config,
             learned,
         } = self;
@@ -153,7 +129,7 @@ impl LearnedMap for MapFile {
         let destinations = graph.ids().filter(|id| graph.is_destination(*id)).count();
         let furthest = graph.ids().filter_map(|id| graph.distance(id)).max();
         vec![
-            format!("{world}, seed {seed}"),
+            format!("{}, seed {}", origin.world, origin.seed),
             format!(
                 "{} states: threshold {}, {} steps",
                 learned.map.states.models().len(),
@@ -174,15 +150,15 @@ impl LearnedMap for MapFile {
 
     fn json(&self) -> Value {
         let Self {
-            origin: Origin { world, seed, .. },
+            origin,
             config,
             learned,
         } = self;
         let graph = &learned.map.graph;
         json!({
             "system": MslstEntry.name(),
-            "maze": world,
-            "seed": seed,
+            "maze": origin.world,
+            "seed": origin.seed,
             "config": config,
             "states": learned.map.states.models().len(),
             "nodes": graph.len(),

@@ -7,16 +7,19 @@ use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::scan_map::{CorridorMap, ScanChart, ScanPlace};
 use tolman_maze::Direction;
 use tolman_robot::{Landmark, MapView};
+use tolman_systems::Actor;
 use tolman_systems::mslst::BetterMslst;
 use tolman_systems::mslst::better::{BetterConfig, BetterMap, BetterMapFile, BetterNavigator};
-use tolman_systems::{Actor, Origin};
 
 use crate::course::Terrain;
 use crate::drawing::places_over_world;
 use crate::gngslam::LaidOver;
 use crate::mslst::better_config;
+use crate::outing::moved;
 use crate::pioneer::body;
-use crate::registry::{DemoWorld, LearnedMap, MapText, RobotEntry, Setup, SystemEntry, because};
+use crate::registry::{
+    DemoWorld, LearnedMap, MapText, RobotEntry, Setup, SystemEntry, SystemFacts, because,
+};
 use crate::{BoxError, Founding, Outing, Sent};
 
 /// The [better MSLST](BetterMslst) on the laser Pioneer.
@@ -26,37 +29,21 @@ pub(super) struct MslstBetterEntry;
 const PRESETS: [(&str, &str); 1] = [("pioneer", "As in the tables, row Better")];
 
 impl SystemEntry for MslstBetterEntry {
-    fn name(&self) -> &'static str {
-        "mslst-better"
-    }
-
-    fn title(&self) -> &'static str {
-        "MSLST Better"
-    }
-
-    fn about(&self) -> &'static str {
-        "draws walls from laser scans, explores where its map has gaps, and navigates by a belief over where it can stand"
-    }
-
-    fn own_robot(&self) -> &'static str {
-        RobotEntry::NOISY_PIONEER.name
-    }
-
-    fn drives(&self) -> bool {
-        true
-    }
-
-    fn demo(&self) -> (DemoWorld, u64) {
-        (DemoWorld::Large, 8)
-    }
-
-    fn presets(&self) -> &'static [(&'static str, &'static str)] {
-        &PRESETS
+    fn facts(&self) -> SystemFacts {
+        SystemFacts {
+            title: "MSLST Better",
+            about: "draws walls from laser scans, explores where its map has gaps, and navigates by a belief over where it can stand",
+            own_robot: RobotEntry::NOISY_PIONEER.name,
+            presets: &PRESETS,
+            drives: true,
+            demo: (DemoWorld::Large, 8),
+            ..SystemFacts::new("mslst-better")
+        }
     }
 
     fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
         setup.anew(self.name())?;
-        setup.settings.preset(PRESETS)?;
+        setup.settings.preset(&PRESETS, [()])?;
         let (course, robot, stack) = setup.laser_robot()?;
         let preset = better_config(course.corridor_width, &setup.robot.laser_config());
         let config: BetterConfig = setup.settings.over(&preset)?;
@@ -89,7 +76,7 @@ impl SystemEntry for MslstBetterEntry {
         let [map] = maps else {
             return Err(format!("{} drives by one map: give --map once", self.name()).into());
         };
-        let file = read(map)?;
+        let file = map.parsed(BetterMapFile::from_json)?;
         let config: BetterConfig = setup.settings.over(&file.config)?;
         config.check().map_err(|error| because("--set", error))?;
         let (course, robot, stack) = setup.laser_robot()?;
@@ -105,12 +92,8 @@ impl SystemEntry for MslstBetterEntry {
     }
 
     fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, BoxError> {
-        Ok(Box::new(read(map)?))
+        Ok(Box::new(map.parsed(BetterMapFile::from_json)?))
     }
-}
-
-fn read(map: &MapText) -> Result<BetterMapFile, BoxError> {
-    BetterMapFile::from_json(&map.text).map_err(|error| because(&map.name, error))
 }
 
 /// Returns the true position of the robot when each place was made. The first place was made before
@@ -123,12 +106,8 @@ fn sites(start: Point, made: &[Founding]) -> Vec<Point> {
 
 /// Returns the placement of a map over the world; `None` if the true poses were not recorded.
 fn laid(file: &BetterMapFile) -> Option<LaidOver> {
-    laid_over(&file.chart, &file.sites)
-}
-
-fn laid_over(chart: &ScanChart, sites: &[Point]) -> Option<LaidOver> {
-    let places = chart.places().iter().map(|place| place.position);
-    LaidOver::of_places(places, sites)
+    let places = file.chart.places().iter().map(|place| place.position);
+    LaidOver::of_places(places, &file.sites)
 }
 
 /// Returns the numbers of the places where the goal was sensed.
@@ -147,14 +126,13 @@ fn ways(chart: &ScanChart) -> usize {
 
 impl LearnedMap for BetterMapFile {
     fn lines(&self) -> Vec<String> {
-        let Origin { world, seed, .. } = &self.origin;
         let goals: Vec<String> = goals(&self.chart).map(|place| place.to_string()).collect();
         let goal = match goals.as_slice() {
             [] => "the goal was never sensed: learn longer".to_owned(),
             goals => format!("the goal was sensed at place {}", goals.join(", ")),
         };
         vec![
-            format!("{world}, seed {seed}"),
+            format!("{}, seed {}", self.origin.world, self.origin.seed),
             format!(
                 "{} places, {} ways between them",
                 self.chart.places().len(),
@@ -165,12 +143,11 @@ impl LearnedMap for BetterMapFile {
     }
 
     fn json(&self) -> Value {
-        let Origin { world, seed, .. } = &self.origin;
         let goals: Vec<u32> = goals(&self.chart).collect();
         json!({
             "system": MslstBetterEntry.name(),
-            "maze": world,
-            "seed": seed,
+            "maze": self.origin.world,
+            "seed": self.origin.seed,
             "config": self.config,
             "places": self.chart.places().len(),
             "links": ways(&self.chart),
@@ -184,10 +161,7 @@ impl LearnedMap for BetterMapFile {
         let laid = laid(self).ok_or(
             "the map has no true positions of its places, so it cannot be drawn over a world: leave --svg out",
         )?;
-        let mut map = self.chart.view();
-        for place in &mut map.places {
-            place.position = place.position.map(|at| laid.world_from_map.transform(at));
-        }
+        let map = moved(self.chart.view(), laid.world_from_map);
         Ok(places_over_world(&course, &map))
     }
 

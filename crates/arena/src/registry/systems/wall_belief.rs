@@ -5,8 +5,8 @@ use tolman_systems::micromouse::noisy::{MotionSource, NoisyMouse, NoisyMouseConf
 use super::micromouse::{WALLS, too_large};
 use crate::micromouse::brief;
 use crate::pioneer::{CORRIDOR_WIDTH, body};
-use crate::registry::{Setup, Start, SystemEntry};
-use crate::{BoxError, Outing, Sent};
+use crate::registry::{Setup, Start, SystemEntry, SystemFacts};
+use crate::{BoxError, Outing};
 
 /// [`NoisyMouse`], which is told the same as the micromouse and has no compass. It localizes with a
 /// particle filter over the walls it believes in: what many would choose instead.
@@ -17,24 +17,14 @@ pub(super) struct WallBeliefEntry;
 const BEAMS: u32 = 8;
 
 impl SystemEntry for WallBeliefEntry {
-    fn name(&self) -> &'static str {
-        "wall-belief"
-    }
-
-    fn title(&self) -> &'static str {
-        "Wall belief"
-    }
-
-    fn about(&self) -> &'static str {
-        "believes in walls, as a noisy micromouse, and knows where it is by particles"
-    }
-
-    fn needs(&self) -> &'static str {
-        "needs a laser ring and encoders"
-    }
-
-    fn why_no_log(&self) -> &'static str {
-        WALLS
+    fn facts(&self) -> SystemFacts {
+        SystemFacts {
+            title: "Wall belief",
+            about: "believes in walls, as a noisy micromouse, and knows where it is by particles",
+            needs: "needs a laser ring and encoders",
+            why_no_log: WALLS,
+            ..SystemFacts::new("wall-belief")
+        }
     }
 
     fn abstains(&self, maze: &Maze) -> Option<String> {
@@ -56,9 +46,6 @@ impl SystemEntry for WallBeliefEntry {
         mouse.motion = MotionSource::Encoders;
         let mouse = NoisyMouse::new(brief(maze)?, mouse, setup.seed)?;
         let robot = setup.laser_at(&course, start, config)?;
-        let steps = setup.steps.unwrap_or(u32::MAX);
-        let origin = setup.origin(&course);
-        let sent = Sent::new(course, robot, steps, mouse);
-        Ok(Box::new(sent.keeping_its_view(self.name(), origin)))
+        Ok(setup.send(self.name(), course, robot, mouse))
     }
 }

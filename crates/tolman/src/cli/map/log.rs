@@ -138,17 +138,17 @@ fn explain(path: &Path, error: anyhow::Error) -> anyhow::Error {
 
 /// Returns how the system called `name` maps a log.
 fn mapper(app: &App, name: &str) -> Result<LogMapper> {
-    let maps_logs = |system: &dyn SystemEntry| system.log_mapper().is_some();
+    let maps_logs = |system: &dyn SystemEntry| system.facts().log_mapper.is_some();
     let system = app
         .system(name, |_| true)
         .or_else(|_| app.system(name, maps_logs))?;
-    system.log_mapper().ok_or_else(|| {
+    system.facts().log_mapper.ok_or_else(|| {
         let maps = app.registry().systems.iter();
         let maps = maps.filter(|system| maps_logs(**system));
         let names: Vec<&str> = maps.map(|system| system.name()).collect();
         Failure::BadInput(anyhow!(
             "{name} maps no logs: {}; give --system with one of: {}",
-            system.why_no_log(),
+            system.facts().why_no_log,
             names.join(", ")
         ))
     })
