@@ -205,7 +205,7 @@ mod tests {
             budget: 2000,
             ..Replays::default()
         };
-        replays.carry([one(0, 500), one(1, 5000), one(2, 600)].into_iter(), 0);
+        replays.carry([one(0, 500), one(1, 5000), one(2, 600)], 0);
         let carried: Vec<u32> = replays.recorded.iter().map(|one| one.run).collect();
         assert_eq!(carried, [0, 2]);
     }

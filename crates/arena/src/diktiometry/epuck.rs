@@ -305,6 +305,8 @@ fn true_places(maze: &Maze, world: &World) -> Places {
 
 #[cfg(test)]
 mod tests {
+    use core::f64::consts::FRAC_PI_2;
+
     use super::*;
 
     #[test]
