@@ -4,7 +4,6 @@ use tolman_geom::{Point, Vector};
 use tolman_maze::{Cell, Direction, Grid};
 use tolman_sim::{Bounds, World};
 
-use super::scenery::rectangle;
 use super::{SceneryZone, TimeSeries, ZoneKind};
 
 /// The cells of a maze world that a robot can reach from its start.
@@ -100,7 +99,7 @@ impl<'a> Floor<'a> {
         SceneryZone {
             kind: ZoneKind::Solid,
             name: String::new(),
-            corners: rectangle(&Bounds { min, max }),
+            corners: Bounds { min, max }.corners().to_vec(),
         }
     }
 

@@ -1,8 +1,6 @@
-use core::f64::consts::TAU;
-
 use serde::Serialize;
-use tolman_geom::{Point, Vector};
-use tolman_sim::{Area, Bounds, World};
+use tolman_geom::Point;
+use tolman_sim::World;
 
 /// Static parts of a world: walls, zones of the floor, and doors. Coordinates are in metres, x to
 /// the right and y upwards.
@@ -61,9 +59,6 @@ pub struct DoorChange {
     pub state: tolman_sim::DoorState,
 }
 
-/// Number of corners of the polygon that a disc is drawn as.
-const DISC_CORNERS: u32 = 48;
-
 impl Scenery {
     /// Returns the walls and zones of a simulated world, and its doors in their first states.
     #[must_use]
@@ -77,7 +72,7 @@ impl Scenery {
             zone.areas().iter().map(move |area| SceneryZone {
                 kind,
                 name: zone.name().to_owned(),
-                corners: corners(area),
+                corners: area.outline(),
             })
         });
         let doors = world.doors().iter().map(|door| SceneryDoor {
@@ -97,23 +92,5 @@ impl Scenery {
             zones: zones.collect(),
             doors: doors.collect(),
         }
-    }
-}
-
-/// Returns the corners of a rectangle, counter-clockwise from the south-west.
-pub(super) fn rectangle(&Bounds { min, max }: &Bounds) -> Vec<Point> {
-    vec![min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)]
-}
-
-fn corners(area: &Area) -> Vec<Point> {
-    match *area {
-        Area::Rectangle(bounds) => rectangle(&bounds),
-        Area::Disc { centre, radius } => (0..DISC_CORNERS)
-            .map(|corner| {
-                let angle = TAU * f64::from(corner) / f64::from(DISC_CORNERS);
-                let (sin, cos) = libm::sincos(angle);
-                centre + Vector::new(cos, sin) * radius
-            })
-            .collect(),
     }
 }

@@ -74,8 +74,7 @@ impl Span {
 
 /// Returns the ends of a side of a rectangle, counter-clockwise.
 fn side(round: Bounds, side: usize) -> (Point, Point) {
-    let Bounds { min, max } = round;
-    let corners = [min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)];
+    let corners = round.corners();
     (corners[side % 4], corners[(side + 1) % 4])
 }
 

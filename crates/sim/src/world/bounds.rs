@@ -36,6 +36,13 @@ impl Bounds {
         self.max.y - self.min.y
     }
 
+    /// Returns the corners, counter-clockwise from the south-west.
+    #[must_use]
+    pub fn corners(&self) -> [Point; 4] {
+        let Self { min, max } = *self;
+        [min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)]
+    }
+
     /// Returns whether `point` lies inside or on the edge.
     #[must_use]
     pub fn contains(&self, point: Point) -> bool {

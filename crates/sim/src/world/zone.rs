@@ -1,4 +1,6 @@
-use tolman_geom::Point;
+use core::f64::consts::TAU;
+
+use tolman_geom::{Point, Vector};
 use tolman_maze::Cell;
 
 use super::{Bounds, WorldError};
@@ -26,6 +28,9 @@ pub enum Area {
     },
 }
 
+/// Number of corners of the polygon that a disc is drawn as.
+const DISC_CORNERS: u32 = 48;
+
 impl Area {
     /// Returns whether `point` lies in it or on its edge.
     #[must_use]
@@ -33,6 +38,21 @@ impl Area {
         match self {
             Self::Rectangle(bounds) => bounds.contains(point),
             Self::Disc { centre, radius } => (point - centre).norm() <= *radius,
+        }
+    }
+
+    /// Returns its corners, counter-clockwise: of a disc, those of a polygon with 48 corners in it.
+    #[must_use]
+    pub fn outline(&self) -> Vec<Point> {
+        match *self {
+            Self::Rectangle(bounds) => bounds.corners().to_vec(),
+            Self::Disc { centre, radius } => (0..DISC_CORNERS)
+                .map(|corner| {
+                    let angle = TAU * f64::from(corner) / f64::from(DISC_CORNERS);
+                    let (sin, cos) = libm::sincos(angle);
+                    centre + Vector::new(cos, sin) * radius
+                })
+                .collect(),
         }
     }
 }
