@@ -30,7 +30,7 @@ mod prover;
 mod seal;
 #[cfg(test)]
 #[cfg(feature = "serde")]
-mod tampering;
+mod tampering_tests;
 mod verifier;
 mod winding_evidence;
 
