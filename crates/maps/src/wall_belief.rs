@@ -16,6 +16,6 @@ mod filter;
 mod range_model;
 mod walls;
 
-pub use filter::{FilterError, PoseFilter, PoseFilterConfig};
+pub use filter::{PoseFilter, PoseFilterConfig};
 pub use range_model::RangeModel;
 pub use walls::{Meeting, RangeReading, WallBelief};

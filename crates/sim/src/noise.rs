@@ -20,7 +20,7 @@ mod faults;
 mod gaussian;
 
 pub use disturbance::{CloneDisturbance, Disturbance, Disturbances, Noise};
-pub use fault::{Fault, FaultError, FaultsError};
+pub use fault::{Fault, FaultsError};
 pub use faults::Faults;
 pub use gaussian::Gaussian;
 

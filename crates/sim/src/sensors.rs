@@ -36,10 +36,8 @@ mod sonars;
 pub use column_camera::{CameraError, ColumnCamera};
 pub use infrared::{Infrared, ResponseCurve, ResponseError, ResponsePoint};
 pub use laser::{Laser, LaserError};
-pub use picture_camera::{
-    Backdrop, Light, LightDrift, PictureCamera, PictureCameraConfig, PictureCameraError,
-};
-pub use sonars::{CrossTalk, Misses, SonarConfig, SonarError, Sonars};
+pub use picture_camera::{Backdrop, Light, LightDrift, PictureCamera, PictureCameraConfig};
+pub use sonars::{CrossTalk, Misses, SonarConfig, Sonars};
 
 /// A sensor, which reads a value from the surroundings of a robot.
 pub trait Sensor {

@@ -3,6 +3,7 @@ use alloc::vec::Vec;
 use core::mem::replace;
 
 use thiserror::Error;
+use tolman_geom::OutOfRange;
 
 use super::bearings::{Bearings, SHARP, between};
 use super::map::{CpMap, End, Port, Sign};
@@ -93,15 +94,8 @@ pub enum LocalizeError {
     #[error("the maps have no fragments; learn one first")]
     Empty,
     /// A probability is outside its range.
-    #[error("{field} is {value} but has to be {range}")]
-    OutOfRange {
-        /// The field of the configuration.
-        field: &'static str,
-        /// The value given.
-        value: f64,
-        /// Allowed values, in words.
-        range: &'static str,
-    },
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
     /// A map was written with other patterns, or an observed pattern is not in the dictionary.
     #[error(transparent)]
     Dictionary(#[from] DictionaryError),
@@ -176,32 +170,10 @@ impl LocalizerConfig {
         }
     }
 
-    fn check(&self) -> Result<(), LocalizeError> {
-        let fields = [
-            (
-                "mistake",
-                self.mistake,
-                1e-9..=1.0 - 1e-9,
-                "above 0, less than 1",
-            ),
-            ("slip", self.slip, 0.0..=0.4, "0 to 0.4"),
-            (
-                "elsewhere",
-                self.elsewhere,
-                1e-12..=0.1,
-                "above 0, at most 0.1",
-            ),
-        ];
-        for (field, value, allowed, range) in fields {
-            if !allowed.contains(&value) {
-                return Err(LocalizeError::OutOfRange {
-                    field,
-                    value,
-                    range,
-                });
-            }
-        }
-        Ok(())
+    fn check(&self) -> Result<(), OutOfRange> {
+        OutOfRange::check("mistake", self.mistake, 1e-9..=1.0 - 1e-9)?;
+        OutOfRange::check("slip", self.slip, 0.0..=0.4)?;
+        OutOfRange::check("elsewhere", self.elsewhere, 1e-12..=0.1)
     }
 }
 

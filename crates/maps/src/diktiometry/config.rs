@@ -1,11 +1,9 @@
-use alloc::format;
-use alloc::string::String;
 use alloc::vec::Vec;
-use core::ops::Bound::{self, Excluded, Included, Unbounded};
-use core::ops::{RangeBounds, RangeInclusive};
+use core::ops::Bound::{self, Excluded, Included};
+use core::ops::RangeInclusive;
 
 use thiserror::Error;
-use tolman_geom::{Interval, PointBox};
+use tolman_geom::{Interval, OutOfRange, POSITIVE, PointBox};
 
 use super::{Action, Exits, Similarity};
 
@@ -578,26 +576,26 @@ impl Config {
     fn check_numbers(&self) -> Result<(), DiktiometryConfigError> {
         let (tracks, limits, transients) = (&self.tracks, &self.restructuring, &self.transients);
         let [most_links, least_links] = limits.links;
-        within("separation", self.separation, POSITIVE)?;
-        within("alike_separation", self.alike_separation, self.separation..)?;
-        within("across", self.across, 0.0..)?;
-        within("place_radius", self.place_radius, 0.0..)?;
-        within("shared_scale", self.shared_scale, 0.0..1.0)?;
-        within("frame_half_width", self.frame_half_width, 0.0..)?;
-        within("search.width", self.search.width, POSITIVE)?;
-        within("matching.beta_reach", self.matching.beta_reach, 0.0..)?;
-        within("tracks.least_confidence", tracks.least_confidence, SHARE)?;
-        within("tracks.high", tracks.high, SHARE)?;
-        within("tracks.low", tracks.low, 0.0..=tracks.high)?;
-        within("transients.rate", transients.rate, SHARE)?;
-        within("transients.fading", transients.fading, POSITIVE_SHARE)?;
-        within("restructuring.weight", limits.weight, POSITIVE)?;
-        within("restructuring.ratio", limits.ratio, 1.0..)?;
-        within("restructuring.minority", limits.minority, SHARE)?;
+        OutOfRange::check("separation", self.separation, POSITIVE)?;
+        OutOfRange::check("alike_separation", self.alike_separation, self.separation..)?;
+        OutOfRange::check("across", self.across, 0.0..)?;
+        OutOfRange::check("place_radius", self.place_radius, 0.0..)?;
+        OutOfRange::check("shared_scale", self.shared_scale, 0.0..1.0)?;
+        OutOfRange::check("frame_half_width", self.frame_half_width, 0.0..)?;
+        OutOfRange::check("search.width", self.search.width, POSITIVE)?;
+        OutOfRange::check("matching.beta_reach", self.matching.beta_reach, 0.0..)?;
+        OutOfRange::check("tracks.least_confidence", tracks.least_confidence, SHARE)?;
+        OutOfRange::check("tracks.high", tracks.high, SHARE)?;
+        OutOfRange::check("tracks.low", tracks.low, 0.0..=tracks.high)?;
+        OutOfRange::check("transients.rate", transients.rate, SHARE)?;
+        OutOfRange::check("transients.fading", transients.fading, POSITIVE_SHARE)?;
+        OutOfRange::check("restructuring.weight", limits.weight, POSITIVE)?;
+        OutOfRange::check("restructuring.ratio", limits.ratio, 1.0..)?;
+        OutOfRange::check("restructuring.minority", limits.minority, SHARE)?;
         let chance = (Excluded(0.0), Excluded(1.0));
-        within("restructuring.look_error", limits.look_error, chance)?;
-        within("restructuring.links[0]", most_links, SHARE)?;
-        within("restructuring.links[1]", least_links, 0.0..=most_links)?;
+        OutOfRange::check("restructuring.look_error", limits.look_error, chance)?;
+        OutOfRange::check("restructuring.links[0]", most_links, SHARE)?;
+        OutOfRange::check("restructuring.links[1]", least_links, 0.0..=most_links)?;
         not_zero("search.frames", self.search.frames)?;
         not_zero("tracks.cap", tracks.cap)
     }
@@ -612,8 +610,8 @@ impl SignatureKind {
 
     fn check(&self, indexing: PerceptualIndexing) -> Result<(), DiktiometryConfigError> {
         let columns = self.columns;
-        within("tolerance", self.tolerance, 0.0..)?;
-        within("share", self.share, POSITIVE_SHARE)?;
+        OutOfRange::check("tolerance", self.tolerance, 0.0..)?;
+        OutOfRange::check("share", self.share, POSITIVE_SHARE)?;
         if indexing == PerceptualIndexing::Triangles && columns < 3 {
             return Err(DiktiometryConfigError::NoTriangles { columns });
         }
@@ -623,48 +621,13 @@ impl SignatureKind {
     }
 }
 
-const POSITIVE: (Bound<f64>, Bound<f64>) = (Excluded(0.0), Unbounded);
 const SHARE: RangeInclusive<f64> = 0.0..=1.0;
 const POSITIVE_SHARE: (Bound<f64>, Bound<f64>) = (Excluded(0.0), Included(1.0));
-
-fn within(
-    field: &'static str,
-    value: f64,
-    range: impl RangeBounds<f64>,
-) -> Result<(), DiktiometryConfigError> {
-    if range.contains(&value) && value.is_finite() {
-        return Ok(());
-    }
-    Err(DiktiometryConfigError::OutOfRange {
-        field,
-        value,
-        least: range.start_bound().cloned(),
-        most: range.end_bound().cloned(),
-    })
-}
 
 const fn not_zero(field: &'static str, count: usize) -> Result<(), DiktiometryConfigError> {
     match count {
         0 => Err(DiktiometryConfigError::Zero { field }),
         _ => Ok(()),
-    }
-}
-
-/// Returns a lower bound in words.
-fn above(least: &Bound<f64>) -> String {
-    match least {
-        Included(least) => format!(", at least {least}"),
-        Excluded(least) => format!(" above {least}"),
-        Unbounded => String::new(),
-    }
-}
-
-/// Returns an upper bound in words.
-fn below(most: &Bound<f64>) -> String {
-    match most {
-        Included(most) => format!(", at most {most}"),
-        Excluded(most) => format!(", below {most}"),
-        Unbounded => String::new(),
     }
 }
 
@@ -684,17 +647,8 @@ pub enum DiktiometryConfigError {
         actions: usize,
     },
     /// A number is out of its range or not finite.
-    #[error("`{field}` is {value}; give a finite number{}{}", above(.least), below(.most))]
-    OutOfRange {
-        /// Name of the field.
-        field: &'static str,
-        /// Value that was given.
-        value: f64,
-        /// Lower bound of the field.
-        least: Bound<f64>,
-        /// Upper bound of the field.
-        most: Bound<f64>,
-    },
+    #[error(transparent)]
+    OutOfRange(#[from] OutOfRange),
     /// The views have too few columns for triangles of edges.
     #[error("views of {columns} columns have no triangles; give 3 or more, or index `Columns`")]
     NoTriangles {
@@ -711,6 +665,7 @@ pub enum DiktiometryConfigError {
 
 #[cfg(test)]
 mod tests {
+    use alloc::format;
     use alloc::string::ToString;
 
     use super::*;
@@ -731,126 +686,126 @@ mod tests {
                 |c, v| c.alike_separation = v,
                 [2.0, most],
                 &[1.9],
-                ", at least 2",
+                "finite number, at least 2",
             ),
             (
                 "across",
                 |c, v| c.across = v,
                 [0.0, most],
                 &[-0.1],
-                ", at least 0",
+                "finite number, at least 0",
             ),
             (
                 "place_radius",
                 |c, v| c.place_radius = v,
                 [0.0, most],
                 &[-0.1],
-                ", at least 0",
+                "finite number, at least 0",
             ),
             (
                 "shared_scale",
                 |c, v| c.shared_scale = v,
                 [0.0, 0.9],
                 &[-0.1, 1.0],
-                ", at least 0, below 1",
+                "finite number, at least 0, below 1",
             ),
             (
                 "frame_half_width",
                 |c, v| c.frame_half_width = v,
                 [0.0, most],
                 &[-0.1],
-                ", at least 0",
+                "finite number, at least 0",
             ),
             (
                 "search.width",
                 |c, v| c.search.width = v,
                 [1e-9, most],
                 &[0.0],
-                " above 0",
+                "finite number above 0",
             ),
             (
                 "matching.beta_reach",
                 |c, v| c.matching.beta_reach = v,
                 [0.0, most],
                 &[-0.1],
-                ", at least 0",
+                "finite number, at least 0",
             ),
             (
                 "tracks.least_confidence",
                 |c, v| c.tracks.least_confidence = v,
                 [0.0, 1.0],
                 &[-0.1, 1.1],
-                ", at least 0, at most 1",
+                "number from 0 to 1",
             ),
             (
                 "tracks.high",
                 |c, v| c.tracks.high = v,
                 [0.3, 1.0],
                 &[-0.1, 1.1],
-                ", at least 0, at most 1",
+                "number from 0 to 1",
             ),
             (
                 "tracks.low",
                 |c, v| c.tracks.low = v,
                 [0.0, 0.7],
                 &[-0.1, 0.8],
-                ", at least 0, at most 0.7",
+                "number from 0 to 0.7",
             ),
             (
                 "transients.rate",
                 |c, v| c.transients.rate = v,
                 [0.0, 1.0],
                 &[-0.1, 1.1],
-                ", at least 0, at most 1",
+                "number from 0 to 1",
             ),
             (
                 "transients.fading",
                 |c, v| c.transients.fading = v,
                 [1e-9, 1.0],
                 &[0.0, 1.1],
-                " above 0, at most 1",
+                "finite number above 0, at most 1",
             ),
             (
                 "restructuring.weight",
                 |c, v| c.restructuring.weight = v,
                 [1e-9, most],
                 &[0.0],
-                " above 0",
+                "finite number above 0",
             ),
             (
                 "restructuring.ratio",
                 |c, v| c.restructuring.ratio = v,
                 [1.0, most],
                 &[0.9],
-                ", at least 1",
+                "finite number, at least 1",
             ),
             (
                 "restructuring.minority",
                 |c, v| c.restructuring.minority = v,
                 [0.0, 1.0],
                 &[-0.1, 1.1],
-                ", at least 0, at most 1",
+                "number from 0 to 1",
             ),
             (
                 "restructuring.look_error",
                 |c, v| c.restructuring.look_error = v,
                 [1e-9, 0.999],
                 &[0.0, 1.0],
-                " above 0, below 1",
+                "finite number above 0, below 1",
             ),
             (
                 "restructuring.links[0]",
                 |c, v| c.restructuring.links[0] = v,
                 [0.4, 1.0],
                 &[-0.1, 1.1],
-                ", at least 0, at most 1",
+                "number from 0 to 1",
             ),
             (
                 "restructuring.links[1]",
                 |c, v| c.restructuring.links[1] = v,
                 [0.0, 0.8],
                 &[-0.1, 0.9],
-                ", at least 0, at most 0.8",
+                "number from 0 to 0.8",
             ),
         ];
         for (name, set, good, bad, range) in fields {
@@ -864,7 +819,7 @@ mod tests {
             }
             for value in bad.iter().copied().chain([f64::NAN, f64::INFINITY]) {
                 let told = config(value).unwrap_err().to_string();
-                let expect = format!("`{name}` is {value}; give a finite number{range}");
+                let expect = format!("`{name}` is {value}; give a {range}");
                 assert_eq!(told, expect);
             }
         }

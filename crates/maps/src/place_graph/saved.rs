@@ -5,7 +5,7 @@ use alloc::string::String;
 use alloc::vec::Vec;
 
 use thiserror::Error;
-use tolman_geom::Pose;
+use tolman_geom::{OutOfRange, POSITIVE, Pose};
 
 use super::{Outline, OutlinePoint, PlaceGraph, PlaceGraphConfig};
 use crate::pose_graph::{PoseEdge, PoseGraph, PoseGraphError};
@@ -51,13 +51,8 @@ pub enum SavedPlaceGraphError {
         version: u32,
     },
     /// A number of the configuration is invalid.
-    #[error("`{field}` is {value}; give a positive number")]
-    Config {
-        /// Name of the field.
-        field: &'static str,
-        /// Value that was given.
-        value: f64,
-    },
+    #[error(transparent)]
+    Config(#[from] OutOfRange),
     /// A place has an invalid number.
     #[error(
         "place {place} has a number that is not finite, or a deviation that is not positive: learn the map again"
@@ -143,9 +138,8 @@ impl SavedPlaceGraph {
             ("curvature_deviation", curvature_deviation),
             ("most_doubt", most_doubt),
         ];
-        let bad = |(_, value): &(&str, f64)| !(value.is_finite() && *value > 0.0);
-        if let Some((field, value)) = positive.into_iter().find(bad) {
-            return Err(SavedPlaceGraphError::Config { field, value });
+        for (field, value) in positive {
+            OutOfRange::check(field, value, POSITIVE)?;
         }
         let is_sound =
             |place: &SavedPlace| place.pose.is_finite() && is_outline_sound(&place.outline);

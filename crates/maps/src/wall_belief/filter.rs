@@ -4,8 +4,7 @@ use alloc::vec::Vec;
 use core::f64::consts::{FRAC_PI_2, TAU};
 
 use rand::{Rng, RngExt};
-use thiserror::Error;
-use tolman_geom::{Heading, Point, Pose, Vector};
+use tolman_geom::{Heading, OutOfRange, POSITIVE, Point, Pose, Vector};
 use tolman_maze::Knowledge;
 
 use super::{RangeModel, RangeReading, WallBelief};
@@ -46,18 +45,6 @@ impl PoseFilterConfig {
     }
 }
 
-/// A number of the configuration out of its range.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[error("`{field}` is {value}; give {range}")]
-pub struct FilterError {
-    /// Name of the field.
-    pub field: &'static str,
-    /// Value that was given.
-    pub value: f64,
-    /// Values that the field may have.
-    pub range: &'static str,
-}
-
 /// The mouse's pose as a cloud of particles: Monte Carlo localization (Probabilistic robotics,
 /// table 8.2). The low variance sampler of table 4.4 runs when the effective number of particles
 /// falls below half.
@@ -81,34 +68,15 @@ impl PoseFilter {
     ///
     /// # Errors
     /// If a number of the configuration is out of its range.
-    pub fn new(config: PoseFilterConfig, pose: Pose) -> Result<Self, FilterError> {
-        let positive = |field, value| (field, value, value > 0.0, "a number above 0");
-        let at_least_0 = |field, value| (field, value, value >= 0.0, "0 or more");
-        let share = (0.0..=1.0).contains(&config.sensor.outliers);
-        let fields = [
-            positive("particles", f64::from(config.particles)),
-            at_least_0("slip", config.slip),
-            at_least_0("drift", config.drift),
-            at_least_0("spread", config.spread),
-            positive("sensor.absolute", config.sensor.absolute),
-            at_least_0("sensor.relative", config.sensor.relative),
-            (
-                "sensor.outliers",
-                config.sensor.outliers,
-                share,
-                "a number from 0 to 1",
-            ),
-        ];
-        if let Some((field, value, _, range)) = fields
-            .into_iter()
-            .find(|(_, value, holds, _)| !(*holds && value.is_finite()))
-        {
-            return Err(FilterError {
-                field,
-                value,
-                range,
-            });
-        }
+    pub fn new(config: PoseFilterConfig, pose: Pose) -> Result<Self, OutOfRange> {
+        let sensor = config.sensor;
+        OutOfRange::check("particles", config.particles.into(), POSITIVE)?;
+        OutOfRange::check("slip", config.slip, 0.0..)?;
+        OutOfRange::check("drift", config.drift, 0.0..)?;
+        OutOfRange::check("spread", config.spread, 0.0..)?;
+        OutOfRange::check("sensor.absolute", sensor.absolute, POSITIVE)?;
+        OutOfRange::check("sensor.relative", sensor.relative, 0.0..)?;
+        OutOfRange::check("sensor.outliers", sensor.outliers, 0.0..=1.0)?;
         let weight = 1.0 / f64::from(config.particles);
         Ok(Self {
             config,

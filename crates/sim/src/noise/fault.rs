@@ -1,6 +1,8 @@
 use alloc::collections::VecDeque;
+use core::ops::Bound::{Included, Unbounded};
 
 use thiserror::Error;
+use tolman_geom::OutOfRange;
 
 use super::{Gaussian, Values};
 use crate::Draws;
@@ -84,26 +86,27 @@ impl Fault {
     /// Checks the range of every number.
     ///
     /// # Errors
-    /// [`FaultError`] names the first number out of its range.
-    pub fn check(&self) -> Result<(), FaultError> {
-        let (any, size) = (f64::MIN..=f64::MAX, 0.0..=f64::MAX);
-        let probable = |probability| ("probability", probability, 0.0..=1.0);
+    /// [`OutOfRange`] names the first number out of its range.
+    pub fn check(&self) -> Result<(), OutOfRange> {
+        let (any, size) = ((Unbounded, Unbounded), (Included(0.0), Unbounded));
+        let count = (Included(1.0), Unbounded);
+        let probable = |probability| ("probability", probability, (Included(0.0), Included(1.0)));
         let parts = match *self {
             Self::Gaussian(noise) => vec![
-                ("relative_sd", noise.relative_sd, size.clone()),
+                ("relative_sd", noise.relative_sd, size),
                 ("absolute_sd", noise.absolute_sd, size),
             ],
             Self::Bias { scale, offset } => {
-                vec![("scale", scale, any.clone()), ("offset", offset, any)]
+                vec![("scale", scale, any), ("offset", offset, any)]
             }
             Self::Bounded {
                 share,
                 offset,
                 steps,
             } => vec![
-                ("share", share, size.clone()),
+                ("share", share, size),
                 ("offset", offset, size),
-                ("steps", f64::from(steps), 1.0..=f64::from(u32::MAX)),
+                ("steps", f64::from(steps), count),
             ],
             Self::Lapse {
                 probability,
@@ -112,10 +115,12 @@ impl Fault {
             } => vec![
                 probable(probability),
                 ("share", share, size),
-                ("steps", f64::from(steps), 1.0..=f64::from(u32::MAX)),
+                ("steps", f64::from(steps), count),
             ],
             Self::Slip { share } => vec![("share", share, size)],
-            Self::Quantization { step } => vec![("step", step, f64::MIN_POSITIVE..=f64::MAX)],
+            Self::Quantization { step } => {
+                vec![("step", step, (Included(f64::MIN_POSITIVE), Unbounded))]
+            }
             Self::DropOut { probability } | Self::Stuck { probability, .. } => {
                 vec![probable(probability)]
             }
@@ -126,22 +131,16 @@ impl Fault {
             } => vec![
                 probable(probability),
                 ("low", low, any),
-                ("high", high, low..=f64::MAX),
+                ("high", high, (Included(low), Unbounded)),
             ],
-            Self::Delay { steps } => vec![("steps", f64::from(steps), 0.0..=1e6)],
+            Self::Delay { steps } => {
+                vec![("steps", f64::from(steps), (Included(0.0), Included(1e6)))]
+            }
         };
-        let wrong = parts
-            .into_iter()
-            .find(|(_, value, range)| !range.contains(value));
-        wrong.map_or(Ok(()), |(part, value, range)| {
-            let (least, most) = range.into_inner();
-            Err(FaultError {
-                part,
-                value,
-                least,
-                most,
-            })
-        })
+        for (part, value, range) in parts {
+            OutOfRange::check(part, value, range)?;
+        }
+        Ok(())
     }
 
     /// Checks the faults of one value, which the configuration calls `field`.
@@ -270,20 +269,6 @@ impl<V: Values> Past<V> {
     }
 }
 
-/// A number of a fault without sense.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[error("the fault's `{part}` is {value}; give a number from {least:e} to {most:e}")]
-pub struct FaultError {
-    /// Name of the number.
-    pub part: &'static str,
-    /// The value given.
-    pub value: f64,
-    /// Least valid value.
-    pub least: f64,
-    /// Greatest valid value.
-    pub most: f64,
-}
-
 /// A fault without sense in a configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Error)]
 #[error("`{field}`, fault {index}: {source}")]
@@ -293,5 +278,5 @@ pub struct FaultsError {
     /// Number of the fault, from 0.
     pub index: usize,
     /// Fault of the configuration.
-    pub source: FaultError,
+    pub source: OutOfRange,
 }

@@ -1,5 +1,5 @@
 use thiserror::Error;
-use tolman_geom::Heading;
+use tolman_geom::{Heading, OutOfRange};
 use tolman_robot::{Body, LaserSensing, Odometry, Ring, Scan, TurnTranslate};
 
 use super::{WheelScale, names, noisy};
@@ -197,9 +197,7 @@ impl LaserPioneerConfig {
             ("wheel_scale.right", self.wheel_scale.right),
         ];
         for (field, value) in sds.chain(rates) {
-            if !(0.0..=1e3).contains(&value) {
-                return Err(RobotConfigError::Field { field, value });
-            }
+            OutOfRange::check(field, value, 0.0..=1e3)?;
         }
         let faults = [
             ("faults.motor_turn", &self.faults.motor_turn),
@@ -218,13 +216,10 @@ impl LaserPioneerConfig {
                 return Err(RobotConfigError::StuckBeam { beam, range });
             }
         }
-        if self.step_us == 0 {
-            return Err(RobotConfigError::Field {
-                field: "step_us",
-                value: 0.0,
-            });
+        match self.step_us {
+            0 => Err(RobotConfigError::NoTime),
+            _ => Ok(()),
         }
-        Ok(())
     }
 }
 
@@ -378,13 +373,11 @@ impl Recordable for LaserPioneer {
 #[non_exhaustive]
 pub enum RobotConfigError {
     /// A number of the configuration is invalid.
-    #[error("`{field}` is {value}; give a number from 0 to 1000 (a time step must be positive)")]
-    Field {
-        /// Name of the field.
-        field: &'static str,
-        /// Value that was given.
-        value: f64,
-    },
+    #[error(transparent)]
+    Field(#[from] OutOfRange),
+    /// A time step has length 0.
+    #[error("`step_us` is 0; give at least 1 µs")]
+    NoTime,
     /// A stuck beam is not in the ring, or its range is not one that the ring can read.
     #[error(
         "`faults.stuck_beams`: beam {beam} stuck at {range} m; name a beam of the ring and a range within its own"

@@ -1,5 +1,5 @@
 use thiserror::Error;
-use tolman_geom::Twist;
+use tolman_geom::{OutOfRange, Twist};
 use tolman_robot::pioneer_2dx::{
     Pioneer2dxSensing, SONAR_LEAST, SONAR_MOST, SONARS, TRACK, body, sonar_mounts,
 };
@@ -7,9 +7,7 @@ use tolman_robot::{Body, Odometry, Picture, TurnTranslate};
 
 use super::{MotorNoise, names, noisy};
 use crate::noise::{Disturbances, Fault, Faults, FaultsError, Gaussian};
-use crate::sensors::{
-    PictureCamera, PictureCameraConfig, PictureCameraError, Sensor, SonarConfig, SonarError, Sonars,
-};
+use crate::sensors::{PictureCamera, PictureCameraConfig, Sensor, SonarConfig, Sonars};
 use crate::trace::Recordable;
 use crate::{Chance, CommandError, Contact, Model, Motion, Surroundings};
 
@@ -191,11 +189,12 @@ impl Pioneer2dxConfig {
         let sds = noises
             .iter()
             .flat_map(|(field, noise)| [(*field, noise.relative_sd), (*field, noise.absolute_sd)]);
-        let mut all = sds.chain(rates);
-        match all.find(|(_, value)| !(0.0..=1e3).contains(value)) {
-            Some((field, value)) => Err(Pioneer2dxError::Field { field, value }),
-            None if self.step_us == 0 => Err(Pioneer2dxError::NoTime),
-            None => self.check_faults(),
+        for (field, value) in sds.chain(rates) {
+            OutOfRange::check(field, value, 0.0..=1e3)?;
+        }
+        match self.step_us {
+            0 => Err(Pioneer2dxError::NoTime),
+            _ => self.check_faults(),
         }
     }
 
@@ -245,9 +244,9 @@ impl Pioneer2dx {
             motor_distance: noisy("motor distance", motors.translate, &faults.motor_distance),
             left_wheel: noisy("left wheel", config.wheel_noise, &faults.left_wheel),
             right_wheel: noisy("right wheel", config.wheel_noise, &faults.right_wheel),
-            sonars: Sonars::new(sonar_mounts(), config.sonar)?,
+            sonars: Sonars::new(sonar_mounts(), config.sonar).map_err(Pioneer2dxError::Sonar)?,
             sonar_faults: Faults::new("sonars", faults.sonars.iter().copied()),
-            camera: PictureCamera::new(config.camera)?,
+            camera: PictureCamera::new(config.camera).map_err(Pioneer2dxError::Camera)?,
             picture: Faults::new("picture", faults.picture.iter().copied()),
             config,
         })
@@ -365,13 +364,8 @@ impl Recordable for Pioneer2dx {
 #[non_exhaustive]
 pub enum Pioneer2dxError {
     /// A number of the configuration is invalid.
-    #[error("`{field}` is {value}; give a number from 0 to 1000")]
-    Field {
-        /// Name of the field.
-        field: &'static str,
-        /// Value that was given.
-        value: f64,
-    },
+    #[error(transparent)]
+    Field(#[from] OutOfRange),
     /// A time step has length 0.
     #[error("`step_us` is 0; give at least 1 µs")]
     NoTime,
@@ -380,8 +374,8 @@ pub enum Pioneer2dxError {
     Fault(#[from] FaultsError),
     /// The sonars cannot be built.
     #[error("`sonar`: {0}")]
-    Sonar(#[from] SonarError),
+    Sonar(#[source] OutOfRange),
     /// The camera cannot be built.
     #[error("`camera`: {0}")]
-    Camera(#[from] PictureCameraError),
+    Camera(#[source] OutOfRange),
 }

@@ -1,7 +1,6 @@
 use nalgebra::Isometry2;
 use rand::Rng;
-use thiserror::Error;
-use tolman_geom::{Heading, Vector};
+use tolman_geom::{Heading, OutOfRange, Vector};
 use tolman_robot::{Picture, PinholeCamera, pioneer_2dx};
 
 use super::Sensor;
@@ -89,7 +88,7 @@ impl PictureCameraConfig {
         }
     }
 
-    fn check(&self) -> Result<(), PictureCameraError> {
+    fn check(&self) -> Result<(), OutOfRange> {
         let half_circle = core::f64::consts::PI - 1e-6;
         let camera = &self.camera;
         let own = [
@@ -110,16 +109,10 @@ impl PictureCameraConfig {
             ("noise_sd", self.noise_sd, 0.0, 255.0),
             ("levels", f64::from(self.levels), 2.0, 256.0),
         ];
-        let mut all = own.into_iter().chain(self.light.parts());
-        let wrong = all.find(|(_, value, least, most)| !(least..=most).contains(&value));
-        wrong.map_or(Ok(()), |(field, value, least, most)| {
-            Err(PictureCameraError {
-                field,
-                value,
-                least,
-                most,
-            })
-        })
+        for (field, value, least, most) in own.into_iter().chain(self.light.parts()) {
+            OutOfRange::check(field, value, least..=most)?;
+        }
+        Ok(())
     }
 }
 
@@ -145,7 +138,7 @@ impl PictureCamera {
     ///
     /// # Errors
     /// If a number of the configuration is invalid.
-    pub fn new(config: PictureCameraConfig) -> Result<Self, PictureCameraError> {
+    pub fn new(config: PictureCameraConfig) -> Result<Self, OutOfRange> {
         config.check()?;
         Ok(Self {
             config,
@@ -227,18 +220,4 @@ impl Sensor for PictureCamera {
         self.develop(shine.veil(glowing), &mut picture, &mut draws);
         *reading = Some(picture);
     }
-}
-
-/// A number of a camera's configuration that is invalid.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[error("`{field}` is {value}; give a number from {least} to {most}")]
-pub struct PictureCameraError {
-    /// Name of the number.
-    pub field: &'static str,
-    /// The value given.
-    pub value: f64,
-    /// Least valid value.
-    pub least: f64,
-    /// Greatest valid value.
-    pub most: f64,
 }

@@ -1,7 +1,6 @@
 use core::f64::consts::{FRAC_PI_2, PI};
 
-use thiserror::Error;
-use tolman_geom::Pose;
+use tolman_geom::{OutOfRange, Pose};
 use tolman_robot::pioneer_2dx;
 
 use super::Sensor;
@@ -97,7 +96,7 @@ impl SonarConfig {
         }
     }
 
-    fn check(&self) -> Result<(), SonarError> {
+    fn check(&self) -> Result<(), OutOfRange> {
         let parts = [
             ("half_width", self.half_width, 1e-6, FRAC_PI_2 - 1e-6),
             ("least", self.least, 0.0, 1e3),
@@ -114,17 +113,10 @@ impl SonarConfig {
                 1.0,
             ),
         ];
-        let wrong = parts
-            .into_iter()
-            .find(|(_, value, least, most)| !(least..=most).contains(&value));
-        wrong.map_or(Ok(()), |(field, value, least, most)| {
-            Err(SonarError {
-                field,
-                value,
-                least,
-                most,
-            })
-        })
+        for (field, value, least, most) in parts {
+            OutOfRange::check(field, value, least..=most)?;
+        }
+        Ok(())
     }
 }
 
@@ -150,7 +142,7 @@ impl<const N: usize> Sonars<N> {
     ///
     /// # Errors
     /// If a number of the configuration is invalid.
-    pub fn new(mounts: [Pose; N], config: SonarConfig) -> Result<Self, SonarError> {
+    pub fn new(mounts: [Pose; N], config: SonarConfig) -> Result<Self, OutOfRange> {
         config.check()?;
         Ok(Self {
             mounts,
@@ -230,20 +222,6 @@ impl CrossTalk {
                 .min_by(f64::total_cmp)
         })
     }
-}
-
-/// A number of a sonar's configuration that is invalid.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[error("`{field}` is {value}; give a number from {least} to {most}")]
-pub struct SonarError {
-    /// Name of the number.
-    pub field: &'static str,
-    /// The value given.
-    pub value: f64,
-    /// Least valid value.
-    pub least: f64,
-    /// Greatest valid value.
-    pub most: f64,
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 use core::error::Error;
 
 use thiserror::Error as ThisError;
+use tolman_geom::OutOfRange;
 use tolman_maps::diktiometry::{
     Config, ObservedMove, ObservedMoveError, Observer, PlaceBelief, PlaceId, StartError,
 };
@@ -10,8 +11,8 @@ use tolman_robot::{
 };
 
 use super::{
-    Eye, Guide, LandmarkSpot, MapError, MappedMove, RouteFinder, RoutineConfig, RoutineConfigError,
-    RoutineError, Rover, Surveyor, sought,
+    Eye, Guide, LandmarkSpot, MapError, MappedMove, RouteFinder, RoutineConfig, RoutineError,
+    Rover, Surveyor, sought,
 };
 
 /// The diktiometry as a system: it drives a robot from place to place, maps what it finds and goes
@@ -110,7 +111,7 @@ impl DiktiometerConfig {
 pub enum DiktiometerError<E: Error + 'static> {
     /// The routines' configuration is out of its bounds.
     #[error(transparent)]
-    Config(#[from] RoutineConfigError),
+    Config(#[from] OutOfRange),
     /// Robot or observer cannot go on.
     #[error(transparent)]
     Map(#[from] MapError<RoutineError<E>>),

@@ -43,7 +43,7 @@ pub use mapped_move::{MapError, MappedMove};
 pub use odometer::Odometer;
 pub use of_sites::DiktiometryOfSites;
 pub use planner::Reason;
-pub use routine_config::{RoutineConfig, RoutineConfigError};
+pub use routine_config::RoutineConfig;
 pub use rover::{Arrival, Rover};
 pub use surveyor::Surveyor;
 

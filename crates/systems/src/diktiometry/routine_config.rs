@@ -1,7 +1,4 @@
-use core::ops::Bound::{self, Excluded, Included};
-use core::ops::RangeBounds;
-
-use thiserror::Error;
+use tolman_geom::{OutOfRange, POSITIVE};
 
 /// Knowledge of a [`Surveyor`](super::Surveyor) about the corridors and its robot.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,18 +20,6 @@ pub struct RoutineConfig {
     pub compass_bound: f64,
 }
 
-/// Reason why no routine can be carried out with a configuration.
-#[derive(Clone, Copy, Debug, PartialEq, Error)]
-#[error("the routines' `{field}` is {value}; give {expected}")]
-pub struct RoutineConfigError {
-    /// Name of the field.
-    pub field: &'static str,
-    /// Value that was given.
-    pub value: f64,
-    /// Allowed values, in words.
-    pub expected: &'static str,
-}
-
 impl RoutineConfig {
     /// Returns a configuration for corridors `corridor_width` m wide without doorways. In one time
     /// step the robot turns by at most `turn_per_step`, rad, and moves by at most
@@ -54,38 +39,17 @@ impl RoutineConfig {
     /// Checks that every field is within its range.
     ///
     /// # Errors
-    /// [`RoutineConfigError`] names the first that is not.
-    pub fn check(&self) -> Result<(), RoutineConfigError> {
-        let fields = [
-            ("odometry_share", self.odometry_share, SHARE),
-            ("compass_bound", self.compass_bound, ANGLE),
-            ("corridor_width", self.corridor_width, POSITIVE),
-            ("doorway_width", self.doorway_width.unwrap_or(1.0), POSITIVE),
-            ("turn_per_step", self.turn_per_step, POSITIVE),
-            ("translate_per_step", self.translate_per_step, POSITIVE),
-        ];
-        for (field, value, (range, expected)) in fields {
-            if !range.contains(&value) {
-                return Err(RoutineConfigError {
-                    field,
-                    value,
-                    expected,
-                });
-            }
-        }
-        Ok(())
+    /// [`OutOfRange`] names the first that is not.
+    pub fn check(&self) -> Result<(), OutOfRange> {
+        let doorway_width = self.doorway_width.unwrap_or(1.0);
+        OutOfRange::check("odometry_share", self.odometry_share, 0.0..=0.5)?;
+        OutOfRange::check("compass_bound", self.compass_bound, 0.0..)?;
+        OutOfRange::check("corridor_width", self.corridor_width, POSITIVE)?;
+        OutOfRange::check("doorway_width", doorway_width, POSITIVE)?;
+        OutOfRange::check("turn_per_step", self.turn_per_step, POSITIVE)?;
+        OutOfRange::check("translate_per_step", self.translate_per_step, POSITIVE)
     }
 }
-
-/// Allowed values of a field, also in words.
-type Allowed = ((Bound<f64>, Bound<f64>), &'static str);
-
-const SHARE: Allowed = ((Included(0.0), Included(0.5)), "a share from 0 to 0.5");
-const ANGLE: Allowed = (
-    (Included(0.0), Excluded(f64::INFINITY)),
-    "a number of radians, 0 or more",
-);
-const POSITIVE: Allowed = ((Excluded(0.0), Excluded(f64::INFINITY)), "a number above 0");
 
 #[cfg(test)]
 mod tests {

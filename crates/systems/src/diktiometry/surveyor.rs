@@ -2,14 +2,14 @@ use core::error::Error;
 use core::f64::consts::{FRAC_PI_2, TAU};
 
 use tolman_control::heading_of;
-use tolman_geom::Heading;
+use tolman_geom::{Heading, OutOfRange};
 use tolman_maps::diktiometry::{MoveOutcome, Signature};
 use tolman_maze::Direction;
 use tolman_robot::{Compass, Landmark, Odometry, Ranges, Rolls, SensesLandmarks, TurnTranslate};
 
 use super::{
-    Around, Arrival, Beside, Eye, Odometer, Offset, RoutineConfig, RoutineConfigError,
-    RoutineError, Rover, SenseError, View, compass, offset, round_scan,
+    Around, Arrival, Beside, Eye, Odometer, Offset, RoutineConfig, RoutineError, Rover, SenseError,
+    View, compass, offset, round_scan,
 };
 
 /// A robot with the paper's control routines: they follow corridors, end at corners and doorways,
@@ -46,8 +46,8 @@ impl<R, E> Surveyor<R, E> {
     /// Returns `robot`, which stands at a place and tells places apart by `eye`.
     ///
     /// # Errors
-    /// [`RoutineConfigError`] if a field of `config` is out of its range.
-    pub fn new(robot: R, eye: E, config: RoutineConfig) -> Result<Self, RoutineConfigError> {
+    /// [`OutOfRange`] if a field of `config` is out of its range.
+    pub fn new(robot: R, eye: E, config: RoutineConfig) -> Result<Self, OutOfRange> {
         config.check()?;
         Ok(Self {
             odometer: Odometer::new(config.odometry_share, config.compass_bound),

@@ -1,5 +1,6 @@
 use thiserror::Error;
-use tolman_maps::wall_belief::{FilterError, PoseFilterConfig};
+use tolman_geom::OutOfRange;
+use tolman_maps::wall_belief::PoseFilterConfig;
 use tolman_maps::wall_map::TooLarge;
 use tolman_planners::moves::MoveExplorerConfigError;
 
@@ -68,7 +69,7 @@ pub enum NoisyMouseError {
     TooLarge(#[from] TooLarge),
     /// The filter's configuration is invalid.
     #[error(transparent)]
-    Filter(#[from] FilterError),
+    Filter(#[from] OutOfRange),
     /// The search's configuration is invalid.
     #[error(transparent)]
     Search(#[from] MoveExplorerConfigError),

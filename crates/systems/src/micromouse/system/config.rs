@@ -1,5 +1,5 @@
 use thiserror::Error;
-use tolman_geom::Point;
+use tolman_geom::{OutOfRange, POSITIVE, Point};
 use tolman_maze::Cell;
 
 use super::super::MouseError;
@@ -23,15 +23,8 @@ pub struct MazeMouseConfig {
 #[non_exhaustive]
 pub enum MazeMouseError {
     /// A number of the configuration is out of its range.
-    #[error("`{field}` is {value}; give {range}")]
-    Field {
-        /// The name of the field.
-        field: &'static str,
-        /// Value that was given.
-        value: f64,
-        /// Values that the field may have.
-        range: &'static str,
-    },
+    #[error(transparent)]
+    Field(#[from] OutOfRange),
     /// The mouse cannot hold the maze or search in it.
     #[error(transparent)]
     Mouse(#[from] MouseError),
@@ -56,30 +49,10 @@ impl MazeMouseConfig {
         Point::new(along(cell.x), along(cell.y))
     }
 
-    pub(super) fn check(&self) -> Result<(), MazeMouseError> {
-        let thin = (0.0..0.5 * self.pitch).contains(&self.wall_thickness);
-        let positive = |field, value| (field, value, value > 0.0, "a number above 0");
-        let fields = [
-            positive("pitch", self.pitch),
-            (
-                "wall_thickness",
-                self.wall_thickness,
-                thin,
-                "a number from 0 to less than half of `pitch`",
-            ),
-            positive("turn_per_step", self.turn_per_step),
-            positive("translate_per_step", self.translate_per_step),
-        ];
-        let wrong = fields
-            .into_iter()
-            .find(|(_, value, holds, _)| !(*holds && value.is_finite()));
-        match wrong {
-            Some((field, value, _, range)) => Err(MazeMouseError::Field {
-                field,
-                value,
-                range,
-            }),
-            None => Ok(()),
-        }
+    pub(super) fn check(&self) -> Result<(), OutOfRange> {
+        OutOfRange::check("pitch", self.pitch, POSITIVE)?;
+        OutOfRange::check("wall_thickness", self.wall_thickness, 0.0..0.5 * self.pitch)?;
+        OutOfRange::check("turn_per_step", self.turn_per_step, POSITIVE)?;
+        OutOfRange::check("translate_per_step", self.translate_per_step, POSITIVE)
     }
 }

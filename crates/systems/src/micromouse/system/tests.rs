@@ -444,7 +444,7 @@ fn numbers_out_of_range_are_refused_by_name() {
         let mut config = CONFIG;
         change(&mut config);
         match MazeMouse::certify(brief(&maze()), config) {
-            Err(MazeMouseError::Field { field, .. }) => Some(field),
+            Err(MazeMouseError::Field(error)) => Some(error.field),
             _ => None,
         }
     };

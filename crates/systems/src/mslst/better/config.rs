@@ -1,5 +1,5 @@
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
+use tolman_geom::OutOfRange;
 
 use crate::mslst::ROBOT_UNIT;
 
@@ -27,20 +27,6 @@ pub struct BetterConfig {
     /// Part that is switched off, to measure its effect; `None` for the whole system.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub without: Option<BetterPart>,
-}
-
-/// Reason why a [`BetterConfig`] fits no robot.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[error("{field} is {value}, expected {least} to {most}")]
-pub struct BetterConfigError {
-    /// Name of the field.
-    pub field: &'static str,
-    /// Value that was given.
-    pub value: f64,
-    /// Least value allowed.
-    pub least: f64,
-    /// Greatest value allowed.
-    pub most: f64,
 }
 
 /// A part of the better system that can be left out.
@@ -84,8 +70,8 @@ impl BetterConfig {
     /// Refuses values that no robot has.
     ///
     /// # Errors
-    /// [`BetterConfigError`] with the first of them.
-    pub fn check(&self) -> Result<(), BetterConfigError> {
+    /// [`OutOfRange`] with the first of them.
+    pub fn check(&self) -> Result<(), OutOfRange> {
         const SHARE: [f64; 2] = [0.0, 1.0];
         let Motors {
             turn_per_command,
@@ -106,17 +92,10 @@ impl BetterConfig {
             ("action_sd", self.action_sd, SHARE),
             ("buffer", self.buffer, [0.0, 10.0]),
         ];
-        let is_off =
-            |(_, value, [least, most]): &(&str, f64, [f64; 2])| !(*least..=*most).contains(value);
-        match fields.into_iter().find(is_off) {
-            Some((field, value, [least, most])) => Err(BetterConfigError {
-                field,
-                value,
-                least,
-                most,
-            }),
-            None => Ok(()),
+        for (field, value, [least, most]) in fields {
+            OutOfRange::check(field, value, least..=most)?;
         }
+        Ok(())
     }
 
     /// Returns whether `part` is in use.

@@ -3,10 +3,10 @@
 
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
-use tolman_geom::Point;
+use tolman_geom::{OutOfRange, Point};
 use tolman_maps::scan_map::{ChartError, ChartParts, ScanChart};
 
-use super::{BetterConfig, BetterConfigError};
+use super::BetterConfig;
 use crate::{FileError, MapFiles, Origin};
 
 const FILES: MapFiles = MapFiles {
@@ -37,7 +37,7 @@ pub enum BetterMapFileError {
     File(#[from] FileError),
     /// The configuration fits no robot.
     #[error("its configuration is invalid; learn the map again")]
-    Config(#[from] BetterConfigError),
+    Config(#[from] OutOfRange),
     /// The map is invalid.
     #[error("its chart is invalid; learn the map again")]
     Chart(#[from] ChartError),
@@ -171,7 +171,7 @@ mod tests {
             (
                 "\"corridor_width\":0.95",
                 "\"corridor_width\":-1",
-                "corridor_width is -1",
+                "`corridor_width` is -1",
             ),
             (
                 "\"corridor_width\":0.95",

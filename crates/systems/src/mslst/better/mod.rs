@@ -109,7 +109,7 @@ mod rehearsal;
 mod stop;
 mod tries;
 
-pub use config::{BetterConfig, BetterConfigError, BetterPart, Motors};
+pub use config::{BetterConfig, BetterPart, Motors};
 pub use explorer::BetterExplorer;
 pub use map::BetterMap;
 pub use map_file::{BetterMapFile, BetterMapFileError};
