@@ -25,6 +25,7 @@ mod config;
 mod corridor_map;
 mod evidence;
 mod fit;
+mod grid_area;
 mod ground_plan;
 mod map;
 mod ranked_bits;

@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use tolman_geom::{Point, Vector};
 
 use super::WallGrid;
-use super::wall_grid::{GridIndex, index_of, middle};
+use super::wall_grid::{GridIndex, around, index_of, middle};
 
 /// Ground of a [`WallGrid`] where a robot can stand and has not been yet.
 #[derive(Debug)]
@@ -157,9 +157,7 @@ impl<'a> Clearings<'a> {
     /// Returns the cells near a point in which the robot can stand and from which no wall separates
     /// it. The robot's own cell is among them, whatever the map says.
     fn stands_by(&self, at: Point) -> Vec<GridIndex> {
-        let centre = index_of(at);
-        let cells = (-BY..=BY)
-            .flat_map(|row| (-BY..=BY).map(move |column| [centre[0] + column, centre[1] + row]));
+        let cells = around(index_of(at), BY);
         let stands: Vec<GridIndex> = cells
             .filter(|index| self.grid.stands(*index, self.radius))
             .collect();

@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 
 use tolman_geom::Point;
 
+use super::grid_area::GridArea;
 use super::wall_grid::{GridIndex, index_of, sees};
 use super::{ChartError, WallGrid};
 
@@ -12,10 +13,8 @@ use super::{ChartError, WallGrid};
 /// It is only as large as the known ground, and does not grow.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GroundPlan {
-    /// Column and row of the first cell.
-    first: GridIndex,
-    columns: i32,
-    rows: i32,
+    /// Cells of the grid.
+    area: GridArea,
     /// Walls, one bit per cell, row by row.
     walls: Vec<u64>,
     floor: Vec<u64>,
@@ -124,7 +123,7 @@ impl GroundPlan {
     /// bounds.
     pub(super) fn with_walls(&self, at: &[Point]) -> Self {
         let mut plan = self.clone();
-        for slot in at.iter().filter_map(|at| self.slot(index_of(*at))) {
+        for slot in at.iter().filter_map(|at| self.area.slot(index_of(*at))) {
             plan.floor[slot / WORD] &= !(1 << (slot % WORD));
             plan.walls[slot / WORD] |= 1 << (slot % WORD);
         }
@@ -134,7 +133,7 @@ impl GroundPlan {
     /// Returns column and row of the first cell; cell (0, 0) begins at the origin.
     #[must_use]
     pub const fn first(&self) -> [i32; 2] {
-        self.first
+        self.area.bounds()[0]
     }
 
     /// Returns the rows from south to north, one letter per cell: `#` wall, `.` floor, a space
@@ -161,7 +160,7 @@ impl GroundPlan {
 
     /// Returns the kind of ground in a cell; unknown outside the plan.
     pub(super) fn at(&self, index: GridIndex) -> GroundKind {
-        let Some(slot) = self.slot(index) else {
+        let Some(slot) = self.area.slot(index) else {
             return GroundKind::Unknown;
         };
         if is_set(&self.floor, slot) {
@@ -175,23 +174,21 @@ impl GroundPlan {
 
     /// Returns the first cell, and the cell one column and one row past the last.
     pub(super) fn bounds(&self) -> [GridIndex; 2] {
-        let [column, row] = self.first;
-        [self.first, [column + self.columns, row + self.rows]]
+        self.area.bounds()
     }
 
     fn unknown(first: GridIndex, columns: i32, rows: i32) -> Self {
-        let words = (columns as usize * rows as usize).div_ceil(WORD);
+        let area = GridArea::new(first, columns, rows);
+        let words = area.len().div_ceil(WORD);
         Self {
-            first,
-            columns,
-            rows,
+            area,
             walls: vec![0; words],
             floor: vec![0; words],
         }
     }
 
     fn set(&mut self, index: GridIndex, ground: GroundKind) {
-        let Some(slot) = self.slot(index) else {
+        let Some(slot) = self.area.slot(index) else {
             return;
         };
         let bits = match ground {
@@ -200,12 +197,6 @@ impl GroundPlan {
             GroundKind::Wall => &mut self.walls,
         };
         bits[slot / WORD] |= 1 << (slot % WORD);
-    }
-
-    fn slot(&self, [column, row]: GridIndex) -> Option<usize> {
-        let [column, row] = [column - self.first[0], row - self.first[1]];
-        let inside = (0..self.columns).contains(&column) && (0..self.rows).contains(&row);
-        inside.then(|| row as usize * self.columns as usize + column as usize)
     }
 }
 

@@ -4,15 +4,14 @@ use alloc::vec::Vec;
 use core::cmp::Reverse;
 
 use super::WallGrid;
+use super::grid_area::GridArea;
 use super::wall_grid::GridIndex;
 
 /// The middle lines of the ground where a robot can stand. They remain when cells are removed from
 /// the border on, except those that keep the ground connected or end a line.
 #[derive(Debug)]
 pub(super) struct Skeleton {
-    first: GridIndex,
-    columns: i32,
-    rows: i32,
+    area: GridArea,
     is_line: Vec<bool>,
     /// Distance from each cell to the border of the ground, in [`PART`]s of a cell.
     depth: Vec<u32>,
@@ -41,11 +40,8 @@ impl Skeleton {
     /// Returns the skeleton of the cells of `grid` that are in `ground`, by slot. O(cells · log
     /// cells).
     pub(super) fn of(grid: &WallGrid, ground: Vec<bool>) -> Self {
-        let [first, end] = grid.bounds();
         let mut skeleton = Self {
-            first,
-            columns: end[0] - first[0],
-            rows: end[1] - first[1],
+            area: GridArea::between(grid.bounds()),
             depth: vec![0; ground.len()],
             is_line: ground,
         };
@@ -57,12 +53,12 @@ impl Skeleton {
     /// Returns the cells of the lines, row by row.
     pub(super) fn cells(&self) -> impl Iterator<Item = GridIndex> + '_ {
         let slots = (0..self.is_line.len()).filter(|slot| self.is_line[*slot]);
-        slots.map(|slot| self.index(slot))
+        slots.map(|slot| self.area.index(slot))
     }
 
     /// Returns the distance of a cell from the border of the ground, m.
     pub(super) fn depth(&self, at: GridIndex) -> f64 {
-        let depth = self.slot(at).map_or(0, |slot| self.depth[slot]);
+        let depth = self.area.slot(at).map_or(0, |slot| self.depth[slot]);
         f64::from(depth) / PART * WallGrid::CELL
     }
 
@@ -93,10 +89,10 @@ impl Skeleton {
         if !self.is_line[slot] {
             return 0;
         }
-        let at = self.index(slot);
+        let at = self.area.index(slot);
         let by_way = ways.map(|way| {
             let step = if way % 2 == 0 { STRAIGHT } else { DIAGONAL };
-            let beside = self.slot(by(at, AROUND[way]));
+            let beside = self.area.slot(by(at, AROUND[way]));
             beside.map_or(0, |slot| self.depth[slot]) + step
         });
         by_way.into_iter().fold(most, u32::min)
@@ -108,14 +104,14 @@ impl Skeleton {
         let mut left: BinaryHeap<Reverse<(u32, usize)>> =
             all.map(|slot| Reverse((self.depth[slot], slot))).collect();
         while let Some(Reverse((_, slot))) = left.pop() {
-            let at = self.index(slot);
+            let at = self.area.index(slot);
             let around = self.around(at);
             if !self.is_line[slot] || !is_needless(around) {
                 continue;
             }
             self.is_line[slot] = false;
             for (way, _) in around.iter().enumerate().filter(|(_, is_line)| **is_line) {
-                if let Some(slot) = self.slot(by(at, AROUND[way])) {
+                if let Some(slot) = self.area.slot(by(at, AROUND[way])) {
                     left.push(Reverse((self.depth[slot], slot)));
                 }
             }
@@ -124,21 +120,10 @@ impl Skeleton {
 
     fn around(&self, at: GridIndex) -> [bool; 8] {
         AROUND.map(|way| {
-            self.slot(by(at, way))
+            self.area
+                .slot(by(at, way))
                 .is_some_and(|slot| self.is_line[slot])
         })
-    }
-
-    fn slot(&self, at: GridIndex) -> Option<usize> {
-        let [column, row] = [at[0] - self.first[0], at[1] - self.first[1]];
-        let is_inside = (0..self.columns).contains(&column) && (0..self.rows).contains(&row);
-        is_inside.then(|| (row * self.columns + column) as usize)
-    }
-
-    fn index(&self, slot: usize) -> GridIndex {
-        let columns = self.columns as usize;
-        let [column, row] = [slot % columns, slot / columns].map(|count| count as i32);
-        [self.first[0] + column, self.first[1] + row]
     }
 }
 

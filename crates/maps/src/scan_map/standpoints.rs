@@ -1,12 +1,13 @@
 use alloc::vec::Vec;
 
-use tolman_geom::{Heading, Point, floor_index};
+use tolman_geom::{Heading, Point};
 use tolman_robot::{Ring, Scan};
 
 use super::evidence::{Misfit, ends_before};
+use super::grid_area::GridArea;
 use super::ranked_bits::RankedBits;
 use super::rays::{RANGE_UNIT, Rays, UNKNOWN};
-use super::wall_grid::{GridIndex, index_of, middle};
+use super::wall_grid::{GridIndex, corner_of, index_of, middle};
 use super::{Clearings, ScanChart, WallGrid};
 
 /// A lattice of positions where a robot can stand on a map, and the ranges of its beams from each.
@@ -18,9 +19,8 @@ pub struct Standpoints {
     chart: ScanChart,
     ring: Ring,
     rays: Rays,
-    /// Column and row of the first lattice cell, in cells of the lattice.
-    first: [i32; 2],
-    columns: i32,
+    /// Cells of the lattice, in which the standpoints are.
+    lattice: GridArea,
     /// The lattice cells that have a standpoint, in rows.
     stands: RankedBits,
     /// Numbers of the standpoints where the landmark of the goal is sensed, in order.
@@ -55,15 +55,14 @@ impl Standpoints {
     #[must_use]
     pub fn of(chart: ScanChart, ring: Ring) -> Self {
         let grid = chart.ground().grid();
-        let lattice = Lattice::over(grid.bounds());
+        let lattice = lattice_over(grid.bounds());
         let stands = stands(&chart, &chart.clearings(&grid), &lattice);
         let ring = Ring::full(ring.beams, ring.max_range);
         let mut standpoints = Self {
             chart,
             ring,
             rays: Rays::of(ring),
-            first: lattice.first,
-            columns: lattice.columns,
+            lattice,
             stands,
             goals: Vec::new(),
             sensing_goal: Vec::new(),
@@ -160,11 +159,7 @@ impl Standpoints {
     /// Returns the four standpoints round a point, each with its weight in bilinear interpolation.
     pub(super) fn around(&self, point: Point) -> [(Option<u32>, f64); 4] {
         let scaled = (point - middle([0, 0])) / Self::SPACING;
-        let corner = [scaled.x, scaled.y].map(floor_index);
-        let [right, up] = [
-            scaled.x - f64::from(corner[0]),
-            scaled.y - f64::from(corner[1]),
-        ];
+        let (corner, [right, up]) = corner_of(scaled);
         let number = |column: i32, row: i32| self.number([corner[0] + column, corner[1] + row]);
         [
             (number(0, 0), (1.0 - right) * (1.0 - up)),
@@ -219,20 +214,12 @@ impl Standpoints {
     }
 
     fn number(&self, lattice: [i32; 2]) -> Option<u32> {
-        let [column, row] = [0, 1].map(|axis| lattice[axis] - self.first[axis]);
-        let inside = (0..self.columns).contains(&column) && row >= 0;
-        let slot = inside.then(|| row as usize * self.columns as usize + column as usize)?;
-        self.stands.number(slot)
+        self.stands.number(self.lattice.slot(lattice)?)
     }
 
     /// Returns the cell of the grid in which the standpoint of a slot lies.
     fn index(&self, slot: usize) -> GridIndex {
-        let columns = self.columns as usize;
-        let [column, row] = [slot % columns, slot / columns];
-        [
-            (self.first[0] + column as i32) * EVERY,
-            (self.first[1] + row as i32) * EVERY,
-        ]
+        self.lattice.index(slot).map(|along| along * EVERY)
     }
 }
 
@@ -256,35 +243,18 @@ impl StandpointViews {
     }
 }
 
-/// The lattice over a grid. Its position does not depend on the grid's extent.
-struct Lattice {
-    first: [i32; 2],
-    columns: i32,
-    rows: i32,
-}
-
-impl Lattice {
-    fn over([first, end]: [GridIndex; 2]) -> Self {
-        let first = lattice_of(first);
-        let size = |axis: usize| (end[axis] - first[axis] * EVERY).max(0) / EVERY + 1;
-        Self {
-            first,
-            columns: size(0),
-            rows: size(1),
-        }
-    }
+/// Returns the lattice over a grid. Its position does not depend on the grid's extent.
+fn lattice_over([first, end]: [GridIndex; 2]) -> GridArea {
+    let first = lattice_of(first);
+    let size = |axis: usize| (end[axis] - first[axis] * EVERY).max(0) / EVERY + 1;
+    GridArea::new(first, size(0), size(1))
 }
 
 /// Returns the set of lattice cells that the robot can reach from places where it has been.
-fn stands(chart: &ScanChart, clearings: &Clearings<'_>, lattice: &Lattice) -> RankedBits {
+fn stands(chart: &ScanChart, clearings: &Clearings<'_>, lattice: &GridArea) -> RankedBits {
     let reached = clearings.reached(chart.places().iter().map(|place| place.position));
-    let columns = lattice.columns as usize;
-    RankedBits::new(columns * lattice.rows as usize, |slot| {
-        let [column, row] = [slot % columns, slot / columns].map(|count| count as i32);
-        let index = [
-            (lattice.first[0] + column) * EVERY,
-            (lattice.first[1] + row) * EVERY,
-        ];
+    RankedBits::new(lattice.len(), |slot| {
+        let index = lattice.index(slot).map(|along| along * EVERY);
         clearings
             .grid()
             .slot(index)

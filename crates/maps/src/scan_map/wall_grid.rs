@@ -6,6 +6,7 @@ use tolman_geom::{Heading, Point, Vector, floor_index};
 use tolman_robot::Scan;
 
 use super::GroundKind;
+use super::grid_area::GridArea;
 
 /// Counts of beams that ended and that passed, on a square grid that grows.
 ///
@@ -14,10 +15,8 @@ use super::GroundKind;
 /// of a scan are therefore look-ups.
 #[derive(Clone, Debug, Default)]
 pub struct WallGrid {
-    /// Column and row of the first cell.
-    first: [i32; 2],
-    columns: i32,
-    rows: i32,
+    /// Cells of the grid.
+    area: GridArea,
     cells: Vec<GridCell>,
 }
 
@@ -77,11 +76,7 @@ impl WallGrid {
     #[must_use]
     pub fn wall_distance(&self, at: Point) -> Option<f64> {
         let scaled = at.coords / Self::CELL - Vector::new(0.5, 0.5);
-        let corner = [scaled.x, scaled.y].map(floor_index);
-        let [right, up] = [
-            scaled.x - f64::from(corner[0]),
-            scaled.y - f64::from(corner[1]),
-        ];
+        let (corner, [right, up]) = corner_of(scaled);
         let near = |column: i32, row: i32| {
             let wall = self
                 .cell([corner[0] + column, corner[1] + row])
@@ -151,14 +146,7 @@ impl WallGrid {
     /// Returns a grid of cells between these bounds with the contents that `ground` gives, each
     /// wall as seen once. O(cells).
     pub(super) fn of(bounds: [GridIndex; 2], ground: impl Fn(GridIndex) -> GroundKind) -> Self {
-        let [first, end] = bounds;
-        let [columns, rows] = [0, 1].map(|axis| end[axis] - first[axis]);
-        let mut grid = Self {
-            first,
-            columns,
-            rows,
-            cells: vec![GridCell::UNSEEN; columns as usize * rows as usize],
-        };
+        let mut grid = Self::unseen(bounds);
         let reach = reach_of_wall();
         for index in grid.indices() {
             let Some(slot) = grid.slot(index) else {
@@ -178,9 +166,7 @@ impl WallGrid {
 
     /// Returns all cells, in rows.
     pub(super) fn indices(&self) -> impl Iterator<Item = GridIndex> + use<> {
-        let [first, end] = self.bounds();
-        let row = move |row| (first[0]..end[0]).map(move |column| [column, row]);
-        (first[1]..end[1]).flat_map(row)
+        self.area.indices()
     }
 
     /// Returns the kind of ground in a cell; unknown if no beam met or passed it.
@@ -223,20 +209,24 @@ impl WallGrid {
 
     /// Returns the first cell, and the cell one column and one row past the last.
     pub(super) fn bounds(&self) -> [GridIndex; 2] {
-        let [column, row] = self.first;
-        [self.first, [column + self.columns, row + self.rows]]
+        self.area.bounds()
     }
 
     /// Returns the place of a cell among all, in rows; `None` outside.
-    pub(super) fn slot(&self, [column, row]: GridIndex) -> Option<usize> {
-        let [column, row] = [column - self.first[0], row - self.first[1]];
-        let inside = (0..self.columns).contains(&column) && (0..self.rows).contains(&row);
-        inside.then(|| (row * self.columns + column) as usize)
+    pub(super) fn slot(&self, index: GridIndex) -> Option<usize> {
+        self.area.slot(index)
     }
 
     /// Returns the number of cells.
     pub(super) fn len(&self) -> usize {
         self.cells.len()
+    }
+
+    /// Returns a grid of cells that were never seen.
+    fn unseen(bounds: [GridIndex; 2]) -> Self {
+        let area = GridArea::between(bounds);
+        let cells = vec![GridCell::UNSEEN; area.len()];
+        Self { area, cells }
     }
 
     fn cell(&self, index: GridIndex) -> Option<&GridCell> {
@@ -295,12 +285,6 @@ impl WallGrid {
     /// Measures the distances round a cell that is no longer a wall.
     fn measure_again(&mut self, gone: GridIndex) {
         let reach = (Self::REACH / Self::CELL) as i32;
-        let around = |index: GridIndex, reach: i32| {
-            let rows = index[1] - reach..=index[1] + reach;
-            rows.flat_map(move |row| {
-                (index[0] - reach..=index[0] + reach).map(move |column| [column, row])
-            })
-        };
         for index in around(gone, reach) {
             if let Some(slot) = self.slot(index) {
                 self.cells[slot].wall = FAR;
@@ -328,20 +312,11 @@ impl WallGrid {
         };
         let first = [0, 1].map(|axis| first[axis].min(low[axis] - MARGIN));
         let end = [0, 1].map(|axis| end[axis].max(high[axis] + MARGIN));
-        let [columns, rows] = [0, 1].map(|axis| end[axis] - first[axis]);
-        let mut grown = Self {
-            first,
-            columns,
-            rows,
-            cells: vec![GridCell::UNSEEN; (columns * rows) as usize],
-        };
-        for row in 0..self.rows {
-            let from = (row * self.columns) as usize;
-            let index = [self.first[0], self.first[1] + row];
-            let (Some(to), width) = (grown.slot(index), self.columns as usize) else {
-                continue;
-            };
-            grown.cells[to..to + width].copy_from_slice(&self.cells[from..from + width]);
+        let mut grown = Self::unseen([first, end]);
+        for (index, cell) in self.indices().zip(&self.cells) {
+            if let Some(slot) = grown.slot(index) {
+                grown.cells[slot] = *cell;
+            }
         }
         *self = grown;
     }
@@ -363,8 +338,7 @@ impl GridCell {
 /// Returns the offsets of the cells round a wall, with their distances from it.
 fn reach_of_wall() -> Vec<([i32; 2], u8)> {
     let reach = (WallGrid::REACH / WallGrid::CELL) as i32;
-    let row = |row: i32| (-reach..=reach).map(move |column| [column, row]);
-    let near = (-reach..=reach).flat_map(row).filter_map(|offset| {
+    let near = around([0, 0], reach).filter_map(|offset| {
         let [column, row] = offset.map(f64::from);
         let distance = libm::hypot(column, row) * WallGrid::CELL;
         (distance <= WallGrid::REACH).then_some((offset, (distance / DISTANCE_UNIT) as u8))
@@ -377,6 +351,24 @@ pub(super) fn sees(from: Point, to: Point, is_wall: impl Fn(Point) -> bool) -> b
     let way = to - from;
     let steps = libm::ceil(way.norm() / (0.5 * WallGrid::CELL)).max(1.0);
     (0..=steps as u32).all(|step| !is_wall(from + way * (f64::from(step) / steps)))
+}
+
+/// Returns the cells at most `reach` columns and rows from one, in rows.
+pub(super) fn around(
+    [column, row]: GridIndex,
+    reach: i32,
+) -> impl Iterator<Item = GridIndex> + use<> {
+    let columns = column - reach..=column + reach;
+    let row_of = move |row| columns.clone().map(move |column| [column, row]);
+    (row - reach..=row + reach).flat_map(row_of)
+}
+
+/// Returns the corner of a square grid before a position, which is in units of the grid, and how
+/// far beyond it the position lies.
+pub(super) fn corner_of(scaled: Vector) -> (GridIndex, [f64; 2]) {
+    let corner = [scaled.x, scaled.y].map(floor_index);
+    let [x, y] = corner.map(f64::from);
+    (corner, [scaled.x - x, scaled.y - y])
 }
 
 /// Returns the cell in which a point lies.
