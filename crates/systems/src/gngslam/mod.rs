@@ -21,6 +21,7 @@ mod online;
 mod place_pilot;
 mod route;
 mod sighting;
+mod snapshot_robot;
 mod wanderer;
 
 pub use map_file::{MapFile, MapFileError};
@@ -29,4 +30,5 @@ pub use offline::{OfflineSlam, OfflineSlamConfig, OfflineSlamError, OfflineSlamF
 pub use online::{ExplorationPolicy, OnlineSlam, OnlineSlamConfig, OnlineSlamError};
 pub use place_pilot::{PlacePilot, PlacePilotConfig, PlacePilotError};
 pub use sighting::LandmarkSighting;
+pub use snapshot_robot::SnapshotRobot;
 pub use wanderer::{Wanderer, WandererConfig, WandererError};

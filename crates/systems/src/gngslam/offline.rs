@@ -6,12 +6,9 @@ use tolman_maps::place_map::{
     FeatureChoice, FeatureError, FeatureTable, ImageForm, PlaceMap, PlaceMapConfig, PlaceMapError,
     PlaceRecord,
 };
-use tolman_robot::{
-    Bumps, Guess, MapView, Mapper, Position, Robot, Rolls, Standing, System, TakesSnapshots, Task,
-    TurnTranslate, VisitNaming,
-};
+use tolman_robot::{Guess, MapView, Mapper, Position, Standing, System, Task, VisitNaming};
 
-use super::{Wanderer, WandererConfig, WandererError};
+use super::{SnapshotRobot, Wanderer, WandererConfig, WandererError};
 use crate::stream;
 
 /// Parameters by which an [`OfflineSlam`] gathers its records and learns.
@@ -170,11 +167,7 @@ impl Mapper for OfflineSlam {
     }
 }
 
-impl<R> System<R> for OfflineSlam
-where
-    R: Robot<Command = TurnTranslate>,
-    R::Sensing: TakesSnapshots + Rolls + Bumps,
-{
+impl<R: SnapshotRobot> System<R> for OfflineSlam {
     type Failure = OfflineSlamFailure<R::Error>;
 
     fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, Self::Failure> {

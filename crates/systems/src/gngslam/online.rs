@@ -9,14 +9,14 @@ use tolman_control::wander::{LegEnd, TurnByEnd, UntilNear, UntilNearConfig};
 use tolman_geom::{Point, Pose};
 use tolman_maps::place_graph::{PlaceGraph, PlaceGraphConfig, PlaceGraphError, SeenThere};
 use tolman_robot::{
-    Bumps, Goal, Guess, Landmark, MapView, Mapper, Odometry, Reckoned, Robot, Rolls,
-    SensesLandmarks, Soundings, Standing, System, TakesSnapshots, Task, TurnTranslate,
+    Goal, Guess, Landmark, MapView, Mapper, Odometry, Reckoned, Robot, SensesLandmarks, Soundings,
+    Standing, System, TakesSnapshots, Task,
 };
 
-use super::LandmarkSighting;
 use super::frontier::{Lane, frontiers, ways_on};
 use super::route::{Obstacles, Route, Target};
 use super::sighting::amid;
+use super::{LandmarkSighting, SnapshotRobot};
 use crate::stream;
 
 /// Parameters by which an [`OnlineSlam`] moves and maps.
@@ -265,11 +265,7 @@ impl OnlineSlam {
     }
 
     /// Wanders a little: looks round, or drives straight on until something is near and then turns.
-    fn wander<R>(&mut self, robot: &mut R) -> Result<(), R::Error>
-    where
-        R: Robot<Command = TurnTranslate>,
-        R::Sensing: TakesSnapshots + Rolls + Bumps,
-    {
+    fn wander<R: SnapshotRobot>(&mut self, robot: &mut R) -> Result<(), R::Error> {
         if self.looks_round > 0 {
             self.looks_round -= 1;
             return self.turn_by(robot, 2.0 * PI / f64::from(self.config.first_looks));
@@ -307,11 +303,7 @@ impl OnlineSlam {
     }
 
     /// Drives a piece of the way, up to where something is near.
-    fn drive<R>(&mut self, robot: &mut R) -> Result<LegEnd, R::Error>
-    where
-        R: Robot<Command = TurnTranslate>,
-        R::Sensing: TakesSnapshots + Rolls + Bumps,
-    {
+    fn drive<R: SnapshotRobot>(&mut self, robot: &mut R) -> Result<LegEnd, R::Error> {
         let mut robot = Reckoned::new(robot, |rolled| self.rolled.push(rolled));
         let end = self.driver.drive(&mut robot)?;
         if end == LegEnd::Bumped {
@@ -322,11 +314,7 @@ impl OnlineSlam {
     }
 
     /// Makes a piece of the turn in progress.
-    fn turn_on<R>(&mut self, robot: &mut R) -> Result<(), R::Error>
-    where
-        R: Robot<Command = TurnTranslate>,
-        R::Sensing: TakesSnapshots + Rolls + Bumps,
-    {
+    fn turn_on<R: SnapshotRobot>(&mut self, robot: &mut R) -> Result<(), R::Error> {
         let piece = self
             .turn
             .clamp(-self.config.turn_piece, self.config.turn_piece);
@@ -336,22 +324,17 @@ impl OnlineSlam {
 
     /// Turns in place by `angle`, rad, counter-clockwise, by odometry. If the robot touches
     /// something, it drives free instead.
-    fn turn_by<R>(&mut self, robot: &mut R, angle: f64) -> Result<(), R::Error>
-    where
-        R: Robot<Command = TurnTranslate>,
-        R::Sensing: TakesSnapshots + Rolls + Bumps,
-    {
+    fn turn_by<R: SnapshotRobot>(&mut self, robot: &mut R, angle: f64) -> Result<(), R::Error> {
         let mut robot = Reckoned::new(robot, |rolled| self.rolled.push(rolled));
         self.has_touched |= self.driver.turn_by(&mut robot, angle)? == TurnByEnd::Touched;
         Ok(())
     }
 
     /// Stands still until a snapshot comes, and takes it in.
-    fn look<R>(&mut self, robot: &mut R) -> Result<(), OnlineSlamError<R::Error>>
-    where
-        R: Robot<Command = TurnTranslate> + SensesLandmarks,
-        R::Sensing: TakesSnapshots + Rolls,
-    {
+    fn look<R: SnapshotRobot + SensesLandmarks>(
+        &mut self,
+        robot: &mut R,
+    ) -> Result<(), OnlineSlamError<R::Error>> {
         for _ in 0..self.config.patience {
             Reckoned::new(&mut *robot, |rolled| self.rolled.push(rolled))
                 .stop()
@@ -416,11 +399,7 @@ impl OnlineSlam {
     }
 
     /// Goes a piece of the way to a frontier. Returns `false` if there is none.
-    fn go_beyond<R>(&mut self, robot: &mut R, here: Pose) -> Result<bool, R::Error>
-    where
-        R: Robot<Command = TurnTranslate>,
-        R::Sensing: TakesSnapshots + Rolls + Bumps,
-    {
+    fn go_beyond<R: SnapshotRobot>(&mut self, robot: &mut R, here: Pose) -> Result<bool, R::Error> {
         if self.frontier.is_none() {
             self.frontier = self.next_frontier(here.position);
             if self.frontier.is_none() && self.retries > 0 {
@@ -461,16 +440,12 @@ impl OnlineSlam {
     }
 
     /// Goes a piece of the way to a target.
-    fn approach<R>(
+    fn approach<R: SnapshotRobot>(
         &mut self,
         robot: &mut R,
         here: Pose,
         target: Target,
-    ) -> Result<Standing, R::Error>
-    where
-        R: Robot<Command = TurnTranslate>,
-        R::Sensing: TakesSnapshots + Rolls + Bumps,
-    {
+    ) -> Result<Standing, R::Error> {
         let arrival = self.config.arrival;
         let is_other = |route: &Route| {
             let apart = (route.target.point - target.point).norm();
@@ -493,11 +468,12 @@ impl OnlineSlam {
     }
 
     /// Turns towards a point, or drives there where it lies ahead.
-    fn go_towards<R>(&mut self, robot: &mut R, here: Pose, next: Point) -> Result<(), R::Error>
-    where
-        R: Robot<Command = TurnTranslate>,
-        R::Sensing: TakesSnapshots + Rolls + Bumps,
-    {
+    fn go_towards<R: SnapshotRobot>(
+        &mut self,
+        robot: &mut R,
+        here: Pose,
+        next: Point,
+    ) -> Result<(), R::Error> {
         let way = here.inverse().transform(next);
         let bearing = libm::atan2(way.y, way.x);
         if bearing.abs() > AHEAD {
@@ -573,11 +549,7 @@ impl Mapper for OnlineSlam {
     }
 }
 
-impl<R> System<R> for OnlineSlam
-where
-    R: Robot<Command = TurnTranslate> + SensesLandmarks,
-    R::Sensing: TakesSnapshots + Rolls + Bumps,
-{
+impl<R: SnapshotRobot + SensesLandmarks> System<R> for OnlineSlam {
     type Failure = OnlineSlamError<R::Error>;
 
     fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, Self::Failure> {

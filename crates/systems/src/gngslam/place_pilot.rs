@@ -5,9 +5,9 @@ use tolman_control::wander::{LegEnd, UntilNear, UntilNearConfig};
 use tolman_geom::{Point, Pose};
 use tolman_maps::place_map::{PlaceMap, PlaceMapError};
 use tolman_quantizers::UnitId;
-use tolman_robot::{Bumps, Robot, Rolls, Standing, TakesSnapshots, TurnTranslate};
+use tolman_robot::Standing;
 
-use super::{Wanderer, WandererError};
+use super::{SnapshotRobot, Wanderer, WandererError};
 
 /// Parameters by which a [`PlacePilot`] follows a way.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -86,15 +86,11 @@ impl<'a> PlacePilot<'a> {
     ///
     /// # Errors
     /// [`PlacePilotError`] if the robot fails or takes no snapshot, or the map is of another robot.
-    pub fn act<R>(
+    pub fn act<R: SnapshotRobot>(
         &mut self,
         robot: &mut R,
         wanderer: &mut Wanderer,
-    ) -> Result<Standing, PlacePilotError<R::Error>>
-    where
-        R: Robot<Command = TurnTranslate>,
-        R::Sensing: TakesSnapshots + Rolls + Bumps,
-    {
+    ) -> Result<Standing, PlacePilotError<R::Error>> {
         let record = wanderer.record(robot)?;
         let here = self.map.nearest(&record)?;
         let at = record.odometry;
@@ -130,17 +126,13 @@ impl<'a> PlacePilot<'a> {
     }
 
     /// Turns towards a point and drives a leg, round an obstacle if there is one.
-    fn go_towards<R>(
+    fn go_towards<R: SnapshotRobot>(
         &mut self,
         robot: &mut R,
         wanderer: &mut Wanderer,
         at: Pose,
         to: Point,
-    ) -> Result<(), R::Error>
-    where
-        R: Robot<Command = TurnTranslate>,
-        R::Sensing: TakesSnapshots + Rolls + Bumps,
-    {
+    ) -> Result<(), R::Error> {
         let towards = at.inverse().transform(to);
         let mut robot = wanderer.reckoned(robot);
         let bearing = libm::atan2(towards.y, towards.x);

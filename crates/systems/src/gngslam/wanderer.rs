@@ -6,8 +6,9 @@ use thiserror::Error;
 use tolman_control::wander::{TurnEnd, UntilNear, UntilNearConfig};
 use tolman_geom::Pose;
 use tolman_maps::place_map::PlaceRecord;
-use tolman_robot::{Bumps, Odometry, Reckoned, Robot, Rolls, TakesSnapshots, TurnTranslate};
+use tolman_robot::{Odometry, Reckoned, Robot, Rolls, TakesSnapshots, TurnTranslate};
 
+use super::SnapshotRobot;
 use crate::stream;
 
 /// Parameters of a [`Wanderer`].
@@ -115,11 +116,10 @@ impl Wanderer {
     ///
     /// # Errors
     /// [`WandererError`] if the robot fails or takes no snapshot.
-    pub fn leg<R>(&mut self, robot: &mut R) -> Result<PlaceRecord, WandererError<R::Error>>
-    where
-        R: Robot<Command = TurnTranslate>,
-        R::Sensing: TakesSnapshots + Rolls + Bumps,
-    {
+    pub fn leg<R: SnapshotRobot>(
+        &mut self,
+        robot: &mut R,
+    ) -> Result<PlaceRecord, WandererError<R::Error>> {
         let start = self.odometry.position;
         let nearest = self.config.nearest;
         let share = nearest + (1.0 - nearest) * self.rng.random_range(0.0..1.0);
@@ -139,11 +139,7 @@ impl Wanderer {
     }
 
     /// Turns to a random new heading and drives there if the way is clear.
-    fn go<R>(&mut self, robot: &mut R) -> Result<TurnEnd, R::Error>
-    where
-        R: Robot<Command = TurnTranslate>,
-        R::Sensing: TakesSnapshots + Rolls + Bumps,
-    {
+    fn go<R: SnapshotRobot>(&mut self, robot: &mut R) -> Result<TurnEnd, R::Error> {
         let angle = self.rng.random_range(-PI..PI);
         let mut robot = Reckoned::new(robot, adding_to(&mut self.odometry));
         let end = self.driver.turn(&mut robot, angle)?;

@@ -45,23 +45,29 @@ impl Search for TargetSearch {
             let known = Passages::new(view.map, Unknown::Closed)?;
             path(&known, view.at, view.goals)
         } else {
-            path_to_target(view)?
+            // The most uncertain cell.
+            let doubts = |cell| {
+                let uncertainty = view.map.uncertainty(cell);
+                (uncertainty > 0).then_some(u8::MAX - uncertainty)
+            };
+            path_to_least(view, doubts)?.unwrap_or_default()
         };
         Ok(leap(view, &path)?.map_or(Next::Turn, Next::Drive))
     }
 }
 
-/// Returns the path to the nearest of the cells of largest uncertainty.
-fn path_to_target(view: &SearchView<'_>) -> Result<Vec<Direction>, TooLarge> {
+/// Returns a path, on which unknown walls count as open, to the cell of the least rank, then the
+/// nearest, then the first. `None` if no cell with a rank is within reach.
+pub(super) fn path_to_least<K: Ord + Copy>(
+    view: &SearchView<'_>,
+    rank: impl Fn(Cell) -> Option<K>,
+) -> Result<Option<Vec<Direction>>, TooLarge> {
     let hoped = Passages::<SIDE>::new(view.map, Unknown::Open)?;
     let steps = StepMap::new(&hoped, [view.at]);
     let cells = view.map.grid().cells();
-    let reached = cells.filter_map(|cell| Some((steps.steps(cell)?, cell)));
-    // The most uncertain, then the nearest, then the first.
-    let target = reached
-        .filter(|(_, cell)| view.map.uncertainty(*cell) > 0)
-        .min_by_key(|(steps, cell)| (u8::MAX - view.map.uncertainty(*cell), *steps));
-    Ok(target.map_or_else(Vec::new, |(_, cell)| path(&hoped, view.at, &[cell])))
+    let reached = cells.filter_map(|cell| Some((rank(cell)?, steps.steps(cell)?, cell)));
+    let target = reached.min_by_key(|(rank, steps, _)| (*rank, *steps));
+    Ok(target.map(|(_, _, cell)| path(&hoped, view.at, &[cell])))
 }
 
 /// Returns the leap along the path that one step allows.

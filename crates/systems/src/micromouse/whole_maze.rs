@@ -1,9 +1,7 @@
-use tolman_maze::Walls;
-use tolman_planners::{Passages, StepMap, TooLarge, Unknown};
+use tolman_planners::TooLarge;
 
-use super::SIDE;
 use super::driver::{Next, Search, SearchView};
-use super::target::{leap, path};
+use super::target::{leap, path_to_least};
 
 /// A search for the whole maze: it goes to the nearest unvisited cell until no such cell can be
 /// reached.
@@ -12,15 +10,10 @@ pub struct WholeMaze;
 
 impl Search for WholeMaze {
     fn next(&mut self, view: &SearchView<'_>) -> Result<Next, TooLarge> {
-        let hoped = Passages::<SIDE>::new(view.map, Unknown::Open)?;
-        let steps = StepMap::new(&hoped, [view.at]);
-        let cells = view.map.grid().cells();
-        let new = cells.filter(|cell| view.map.visits(*cell) == 0);
-        let reached = new.filter_map(|cell| Some((steps.steps(cell)?, cell)));
-        let Some((_, nearest)) = reached.min_by_key(|(steps, _)| *steps) else {
+        let new = |cell| (view.map.visits(cell) == 0).then_some(());
+        let Some(path) = path_to_least(view, new)? else {
             return Ok(Next::Reset);
         };
-        let path = path(&hoped, view.at, &[nearest]);
         Ok(leap(view, &path)?.map_or(Next::Turn, Next::Drive))
     }
 }
