@@ -12,6 +12,8 @@
 //! [`PointBox`] for a position, a [`PoseBox`] for a pose. Computations with them round outwards, so
 //! that the true value stays inside.
 //!
+//! An [`OutOfRange`] says which number of a configuration is out of its range.
+//!
 //! All other trigonometry goes through [`libm`], so the same numbers come out on every platform.
 //!
 //! ```
