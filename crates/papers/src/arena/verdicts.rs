@@ -57,21 +57,14 @@ pub struct VerdictPool {
     enough: u32,
     most_rounds: u32,
     rounds: u32,
+    /// Index of the present difficulty.
     rung: usize,
-    /// Number of worlds drawn at each difficulty so far.
-    drawn: [u32; RUNGS.len()],
+    /// Results so far by difficulty.
+    rungs: [RungJudgement; RUNGS.len()],
     abstained: u32,
-    maps: Vec<OwnVerdict>,
-}
-
-/// A system's verdict on its map, and whether the map is right.
-#[derive(Clone, Copy, Debug)]
-struct OwnVerdict {
-    /// Index of the difficulty of the map's world.
-    rung: usize,
-    is_right: bool,
-    claim: Claim,
-    likelihood: f64,
+    undecided: usize,
+    /// Sum of the squared errors of the system's probabilities that its maps are right.
+    squared_error: f64,
 }
 
 /// A round of a [`VerdictPool`]: worlds in which a map is to be learned, and their condition.
@@ -106,7 +99,7 @@ pub struct PoolJudgement {
 }
 
 /// Results in the worlds of one difficulty of a [`VerdictPool`].
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct RungJudgement {
     /// Name of the difficulty.
     pub name: &'static str,
@@ -126,7 +119,7 @@ impl VerdictPool {
     /// Returns an empty pool. It is full when it has `enough` right and `enough` wrong maps, or
     /// after `most_rounds` rounds.
     #[must_use]
-    pub const fn new(worlds: Vec<ArenaWorld>, seed: u64, enough: u32, most_rounds: u32) -> Self {
+    pub fn new(worlds: Vec<ArenaWorld>, seed: u64, enough: u32, most_rounds: u32) -> Self {
         Self {
             seed,
             worlds,
@@ -134,9 +127,13 @@ impl VerdictPool {
             most_rounds,
             rounds: 0,
             rung: 0,
-            drawn: [0; RUNGS.len()],
+            rungs: RUNGS.map(|Rung { name, .. }| RungJudgement {
+                name,
+                ..RungJudgement::default()
+            }),
             abstained: 0,
-            maps: Vec::new(),
+            undecided: 0,
+            squared_error: 0.0,
         }
     }
 
@@ -167,17 +164,23 @@ impl VerdictPool {
     /// Adds the results of a round.
     pub fn take(&mut self, held: &[ContestRecord]) {
         self.rounds += 1;
-        self.drawn[self.rung] += held.len() as u32;
-        let rung = self.rung;
+        let rung = &mut self.rungs[self.rung];
+        rung.worlds += held.len() as u32;
         for record in held {
             self.abstained += u32::from(record.abstained.is_some());
-            self.maps
-                .extend(record.learned.as_ref().map(|learned| OwnVerdict {
-                    rung,
-                    is_right: learned.judgement.is_right,
-                    claim: learned.claim,
-                    likelihood: learned.likelihood(),
-                }));
+            let Some(learned) = &record.learned else {
+                continue;
+            };
+            let is_right = learned.judgement.is_right;
+            let (maps, mistakes, mistake) = match is_right {
+                true => (&mut rung.right, &mut rung.false_alarms, Claim::Wrong),
+                false => (&mut rung.wrong, &mut rung.false_right, Claim::Right),
+            };
+            *maps += 1;
+            *mistakes += usize::from(learned.claim == mistake);
+            self.undecided += usize::from(learned.claim == Claim::Undecided);
+            let error = learned.likelihood() - f64::from(u8::from(is_right));
+            self.squared_error += error * error;
         }
         let (right, wrong) = self.counts();
         self.rung = match right > wrong {
@@ -195,56 +198,34 @@ impl VerdictPool {
 
     /// Returns the numbers of right and of wrong maps.
     fn counts(&self) -> (usize, usize) {
-        let right = self.count(|map| map.is_right);
-        (right, self.maps.len() - right)
+        (self.sum(|rung| rung.right), self.sum(|rung| rung.wrong))
     }
 
     /// Returns the summary of all maps so far.
     #[must_use]
     pub fn judgement(&self) -> PoolJudgement {
         let (right, wrong) = self.counts();
-        let claimed =
-            |claim, is_right| self.count(|map| map.is_right == is_right && map.claim == claim);
-        let undecided = claimed(Claim::Undecided, true) + claimed(Claim::Undecided, false);
-        let drawn = (0..RUNGS.len()).filter(|rung| self.drawn[*rung] > 0);
+        let drawn = self.rungs.iter().filter(|rung| rung.worlds > 0);
         PoolJudgement {
             right,
             wrong,
             abstained: self.abstained,
-            false_right_percent: percent(claimed(Claim::Right, false), wrong),
-            false_alarm_percent: percent(claimed(Claim::Wrong, true), right),
-            undecided_percent: percent(undecided, self.maps.len()),
+            false_right_percent: percent(self.sum(|rung| rung.false_right), wrong),
+            false_alarm_percent: percent(self.sum(|rung| rung.false_alarms), right),
+            undecided_percent: percent(self.undecided, right + wrong),
             brier_skill: self.brier_skill(),
-            drawn: drawn.map(|rung| self.of_rung(rung)).collect(),
+            drawn: drawn.cloned().collect(),
         }
     }
 
-    fn of_rung(&self, rung: usize) -> RungJudgement {
-        let count = |is_right: bool| self.count(|map| map.rung == rung && map.is_right == is_right);
-        let mistaken = |is_right: bool, claim| {
-            self.count(|map| map.rung == rung && map.is_right == is_right && map.claim == claim)
-        };
-        RungJudgement {
-            name: RUNGS[rung].name,
-            worlds: self.drawn[rung],
-            right: count(true),
-            false_alarms: mistaken(true, Claim::Wrong),
-            wrong: count(false),
-            false_right: mistaken(false, Claim::Right),
-        }
-    }
-
-    fn count(&self, is_meant: impl Fn(&OwnVerdict) -> bool) -> usize {
-        self.maps.iter().filter(|map| is_meant(map)).count()
+    fn sum(&self, of: impl Fn(&RungJudgement) -> usize) -> usize {
+        self.rungs.iter().map(of).sum()
     }
 
     fn brier_skill(&self) -> Option<f64> {
-        let count = self.maps.len() as f64;
         let (right, wrong) = self.counts();
-        let error = |map: &OwnVerdict| map.likelihood - f64::from(u8::from(map.is_right));
-        let errors: f64 = self.maps.iter().map(|map| error(map) * error(map)).sum();
-        let variance = right as f64 * wrong as f64 / count;
-        (right > 0 && wrong > 0).then(|| 1.0 - errors / variance)
+        let variance = right as f64 * wrong as f64 / (right + wrong) as f64;
+        (right > 0 && wrong > 0).then(|| 1.0 - self.squared_error / variance)
     }
 }
 
