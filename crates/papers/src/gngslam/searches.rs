@@ -7,6 +7,7 @@ use std::sync::{Mutex, PoisonError};
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
+use tolman_arena::gngslam::PlaceScore;
 use tolman_experiment::{BoxError, run_seed};
 use tolman_maps::place_map::PlaceMap;
 
@@ -14,7 +15,7 @@ use super::MapRun;
 use super::annealing::{Annealing, Tried};
 use super::places::Places;
 use super::search_space::Parameters;
-use super::sets::{SETTINGS, SOURCES, Setting, settings};
+use super::sets::{SOURCES, Setting, settings};
 
 /// Number of maps of a search: the paper's n. Runs 0 to 99 of a row are its first search, runs 100
 /// to 199 its second, and so on.
@@ -33,19 +34,12 @@ pub(super) struct Searches {
 
 type Shared = Arc<Mutex<Annealing<Learned>>>;
 
-/// A learned map and its scores.
+/// A learned map and its score.
 #[derive(Clone, Copy, Debug)]
 struct Learned {
     nodes: usize,
-    /// Scores; `None` for a useless map.
-    scores: Option<Scores>,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Scores {
-    centre: f64,
-    border: f64,
-    mirrored: bool,
+    /// Score; `None` for a useless map.
+    score: Option<PlaceScore>,
 }
 
 impl Searches {
@@ -70,7 +64,7 @@ impl Searches {
 
     /// Plays a run of a row, after those before it in its search.
     pub(super) fn map(&self, row: usize, run: u32) -> Result<MapRun, BoxError> {
-        let setting = settings()[row.min(SETTINGS - 1)];
+        let setting = settings()[row];
         let first = run - run % MAPS;
         let seed = |step: u32| run_seed(self.seed, setting.table, first + step);
         let shared = self.shared(row, run / MAPS);
@@ -101,14 +95,9 @@ impl Searches {
         let scorer = places.scorer(setting.stretch)?;
         let table = places.table(setting.set.image())?;
         let score = scorer.score(&map, table, &mut stream(seed, 2))?;
-        let scores = score.map(|score| Scores {
-            centre: score.mean.by_centre,
-            border: score.mean.by_border,
-            mirrored: score.mirrored,
-        });
         let nodes = map.network().len();
-        let centre = scores.map_or(0.0, |scores| scores.centre);
-        Ok((Learned { nodes, scores }, centre))
+        let centre = score.map_or(0.0, |score| score.mean.by_centre);
+        Ok((Learned { nodes, score }, centre))
     }
 
     /// Learns the map of a run.
@@ -127,12 +116,12 @@ impl Searches {
 }
 
 fn record(tried: &Tried<Learned>) -> MapRun {
-    let Learned { nodes, scores } = tried.map;
+    let Learned { nodes, score } = tried.map;
     MapRun {
-        score: scores.map(|scores| scores.centre),
-        border_score: scores.map(|scores| scores.border),
-        useless: scores.is_none(),
-        mirrored: scores.map(|scores| scores.mirrored),
+        score: score.map(|score| score.mean.by_centre),
+        border_score: score.map(|score| score.mean.by_border),
+        useless: score.is_none(),
+        mirrored: score.map(|score| score.mirrored),
         nodes: Some(nodes),
         parameters: tried.parameters.0.into(),
     }
