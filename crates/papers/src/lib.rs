@@ -12,7 +12,9 @@ pub mod cpm;
 pub mod data;
 pub mod diktiometry;
 pub mod gngslam;
+mod kept;
 mod maze_file;
+mod metrics;
 mod micromouse;
 pub mod mslst;
 mod mslst_drawings;
@@ -20,6 +22,7 @@ mod mslst_sweeps;
 mod plan;
 mod quantizers;
 pub mod real;
+mod rows;
 mod tolerances;
 mod venue;
 

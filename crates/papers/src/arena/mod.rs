@@ -9,8 +9,6 @@ mod rows;
 mod verdicts;
 mod worlds;
 
-use std::sync::Mutex;
-
 use tolman_arena::contest::{Condition, Contest, Moment};
 use tolman_arena::registry::{RobotEntry, Schooling};
 use tolman_draw::Figure;
@@ -19,8 +17,10 @@ use tolman_experiment::{
 };
 use tolman_replay::Replay;
 
-use self::records::{HomeRun, LearnRun, LocateRun};
+pub(crate) use self::records::LearnRun;
+use self::records::{HomeRun, LocateRun};
 use self::rows::{ALL, Held, RowName};
+use crate::rows::row_of;
 use tolman_film::Film;
 
 pub use verdicts::{PoolJudgement, PoolRound, RungJudgement, VerdictPool};
@@ -71,7 +71,7 @@ struct Arena {
     worlds: Vec<ArenaWorld>,
     schooling: Schooling,
     /// Contests that were already held; several rows use each.
-    held: Mutex<Held>,
+    held: Held,
 }
 
 /// Returns the experiment with its tables.
@@ -104,7 +104,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         seed: options.seed,
         worlds,
         schooling: Schooling::default(),
-        held: Mutex::default(),
+        held: Held::default(),
     };
     Ok(Experiment::new(ENTRY, tables, config, arena))
 }
@@ -117,9 +117,7 @@ impl Procedure for Arena {
             CONDITIONS_TABLE => return self.under_condition(&row, job.run),
             _ => {}
         }
-        let mut tables = TABLES.into_iter();
-        let table = tables.find(|(name, ..)| *name == job.table);
-        let (_, task, robot) = table.ok_or_else(|| no_row(job))?;
+        let (_, task, robot) = row_of(job, TABLES, |(name, ..)| *name == job.table)?;
         let record = self.held(&row, robot, job.run)?;
         Ok(match task {
             ArenaTask::Learn => LearnRun::of(&record).fields()?,

@@ -6,10 +6,11 @@ use tolman_maze::Maze;
 
 use super::rows::{ALL, contestants, row_name};
 use super::{ArenaTask, TABLES};
+use crate::metrics::UsualMetrics as _;
 
 record! {
     /// A system's map of a world.
-    pub(super) struct LearnRun {
+    pub(crate) struct LearnRun {
         /// Whether it declared, before it drove, that it cannot work there.
         abstained: bool => neither("abstained"),
         /// Whether its map is right: it matches the graph of the true places and ways one to one,
@@ -22,7 +23,7 @@ record! {
         purity: Option<f64> => higher("purity").share().decimals(3),
         /// Number of places on its map over that of true places. A place with two ways counts as
         /// part of a way.
-        places: Option<f64> => neither("places / true").decimals(2),
+        places: Option<f64> => neither("places / true"),
         /// Share of the links on its map that are true ways, each counted once.
         link_precision: Option<f64> => higher("link precision").share().decimals(3),
         /// Share of the true ways that are on its map; 0 for a system that abstained.
@@ -53,12 +54,12 @@ record! {
 record! {
     /// A robot's drive to the goal.
     pub(super) struct HomeRun {
-        /// Whether it declared, before it drove, that it cannot work there.
-        abstained: bool => neither("abstained"),
         /// Whether it reached the goal within ten times the shortest way.
         success: bool => higher("success"),
         /// For runs that arrived: driven distance over that of the shortest way from cell to cell.
-        metres_over_shortest: Option<f64> => lower("metres / shortest").decimals(2),
+        metres_over_shortest: Option<f64> => lower("metres / shortest"),
+        /// Whether it declared, before it drove, that it cannot work there.
+        abstained: bool => neither("abstained"),
         /// Number of time steps in which it touched something.
         bumps: Option<u32> => lower("bumps"),
         /// Reason why it gave up.
@@ -115,11 +116,11 @@ record! {
         /// Share of the true ways that are on the map.
         link_recall: f64 => higher("link recall").share().decimals(3),
         /// Driven distance over the length of all corridors.
-        driven: Option<f64> => lower("metres / corridors").decimals(2),
+        driven: Option<f64> => lower("metres / corridors"),
         /// Time steps per cell that can be reached.
         steps_per_cell: Option<f64> => lower("time steps / cell").decimals(1),
         /// Places of the map per cell that can be reached.
-        places_per_cell: Option<f64> => lower("places / cell").decimals(2),
+        places_per_cell: Option<f64> => lower("places / cell"),
     }
 }
 
@@ -176,7 +177,7 @@ pub(super) fn conditions(name: &str) -> Table {
 }
 
 impl LearnRun {
-    pub(super) fn of(record: &ContestRecord) -> Self {
+    pub(crate) fn of(record: &ContestRecord) -> Self {
         let Some(learned) = &record.learned else {
             return Self {
                 abstained: true,
@@ -293,66 +294,46 @@ impl SizeRun {
 
 pub(super) fn learn(name: &str) -> Table {
     Table::of::<LearnRun>(name, "What each system learns, and whether it knows that")
-        .metric(Metric::percent("right_percent", LearnRun::right))
-        .metric(Metric::percent(
-            "right_of_visited_percent",
+        .metrics([
+            LearnRun::right,
             LearnRun::right_of_visited,
-        ))
-        .metric(Metric::mean(LearnRun::purity))
-        .metric(Metric::mean(LearnRun::places))
-        .metric(Metric::mean(LearnRun::link_precision))
-        .metric(Metric::mean(LearnRun::link_recall))
-        .metric(Metric::percent("abstained_percent", LearnRun::abstained))
-        .metric(Metric::percent(
-            "false_right_percent",
+            LearnRun::purity,
+            LearnRun::places,
+            LearnRun::link_precision,
+            LearnRun::link_recall,
+            LearnRun::abstained,
             LearnRun::false_right,
-        ))
-        .metric(Metric::percent(
-            "false_alarm_percent",
             LearnRun::false_alarm,
-        ))
-        .metric(Metric::percent("undecided_percent", LearnRun::undecided))
+            LearnRun::undecided,
+        ])
         .metric(
             Metric::skill("brier_skill", LearnRun::brier, LearnRun::map_right)
                 .titled("Brier skill")
                 .defined("How much better the system tells whether its map is right than the share of right maps does: 1 is always right, 0 no better, below it worse."),
         )
-        .metric(Metric::mean(LearnRun::driven))
-        .metric(Metric::mean(LearnRun::bumps))
-        .metric(Metric::mean(LearnRun::bytes_per_place))
+        .metrics_from(LearnRun::driven)
 }
 
 pub(super) fn home(name: &str) -> Table {
     Table::of::<HomeRun>(name, "Put down somewhere, and sent to the goal")
-        .metric(Metric::percent("success_percent", HomeRun::success))
-        .metric(Metric::mean(HomeRun::metres_over_shortest))
-        .metric(Metric::percent("abstained_percent", HomeRun::abstained))
-        .metric(Metric::mean(HomeRun::bumps))
+        .metrics_from(HomeRun::success)
 }
 
 pub(super) fn locate(name: &str) -> Table {
     Table::of::<LocateRun>(name, "Put down somewhere, and asked where that is")
-        .metric(Metric::percent("right_percent", LocateRun::right))
-        .metric(Metric::percent("wrong_percent", LocateRun::wrong))
-        .metric(Metric::percent("abstained_percent", LocateRun::abstained))
-        .metric(Metric::percent(
-            "right_on_right_map_percent",
+        .metrics([
+            LocateRun::right,
+            LocateRun::wrong,
+            LocateRun::abstained,
             LocateRun::right_on_right_map,
-        ))
+        ])
         .metric(Metric::mean(LocateRun::ceiling).named("ceiling_percent"))
         .metric(Metric::mean(LocateRun::ceiling_on_right_map).named("ceiling_on_right_map_percent"))
         .metric(Metric::percent(
             "active_ceiling_on_right_map_percent",
             LocateRun::with_true_map,
         ))
-        .metric(Metric::mean(LocateRun::after_1))
-        .metric(Metric::mean(LocateRun::after_1_informed))
-        .metric(Metric::mean(LocateRun::after_5))
-        .metric(Metric::mean(LocateRun::after_5_informed))
-        .metric(Metric::mean(LocateRun::after_10))
-        .metric(Metric::mean(LocateRun::after_10_informed))
-        .metric(Metric::mean(LocateRun::after_20))
-        .metric(Metric::mean(LocateRun::after_20_informed))
+        .metrics_from(LocateRun::after_1)
 }
 
 pub(super) fn sizes(name: &str) -> Table {

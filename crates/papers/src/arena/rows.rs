@@ -1,6 +1,4 @@
-use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
-use std::sync::{Mutex, PoisonError};
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -13,6 +11,7 @@ use tolman_maze::Braided;
 use super::records::{ConditionRun, SizeRun};
 use super::worlds::{ArenaWorld, DrawnWorld};
 use super::{Arena, ArenaTask, ENTRY, SIZE_TABLE, of_all};
+use crate::kept::Kept;
 
 /// World in the names of rows that combine all worlds.
 pub(super) const ALL: &str = "all";
@@ -78,13 +77,10 @@ pub(super) fn of(
 }
 
 /// Contests that were already held.
-pub(super) type Held = BTreeMap<HeldKey, Shared>;
+pub(super) type Held = Kept<HeldKey, ContestRecord>;
 
 /// Key of a contest: robot, contestant, world and drawing.
 pub(super) type HeldKey = (&'static str, &'static str, usize, u32);
-
-/// A contest that the first caller plays while the others wait.
-type Shared = Arc<Mutex<Option<Arc<ContestRecord>>>>;
 
 impl Arena {
     /// Returns the contest of a row's run.
@@ -113,20 +109,11 @@ impl Arena {
     ) -> Result<Arc<ContestRecord>, BoxError> {
         let key = self.contest_of(row, robot, run)?;
         let (_, _, world, number) = key;
-        let shared = {
-            let mut held = self.held.lock().unwrap_or_else(PoisonError::into_inner);
-            Arc::clone(held.entry(key).or_default())
-        };
-        let mut made = shared.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(record) = &*made {
-            return Ok(Arc::clone(record));
-        }
-        let drawn = self.worlds[world].draw(self.seed, number)?;
-        let contest = drawn.contest(row.contestant, robot);
-        let record = contest.play(&self.schooling, |_, _| {})?;
-        let record = Arc::new(record);
-        *made = Some(Arc::clone(&record));
-        Ok(record)
+        self.held.get(key, || {
+            let drawn = self.worlds[world].draw(self.seed, number)?;
+            let contest = drawn.contest(row.contestant, robot);
+            Ok(contest.play(&self.schooling, |_, _| {})?)
+        })
     }
 
     /// Plays a run of the table of conditions, in a small world. The kinds of worlds take turns.

@@ -12,7 +12,7 @@ use tolman_sim::robots::LaserPioneer;
 
 use tolman_arena::course::Course;
 use tolman_arena::pioneer;
-use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record};
+use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
 
 /// The table's name in `summary.json`.
 pub(super) const NAME: &str = "corridor detector";
@@ -46,7 +46,7 @@ const PLACES: [(&str, &[Direction]); 5] = [
 pub(super) fn table() -> Table {
     let title = "What the corridor detector takes for a corridor";
     Table::of::<CorridorRun>(NAME, title)
-        .metric(Metric::mean(CorridorRun::called_corridor_percent))
+        .metrics_from(CorridorRun::called_corridor_percent)
         .rows(PLACES.map(|(name, _)| Row::new(name)))
         .note(format!(
             "{POSES} poses a run, anywhere in the cell where the robot stands clear and with any heading."

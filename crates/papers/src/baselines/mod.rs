@@ -9,7 +9,7 @@ mod detector;
 mod figures;
 mod worlds;
 
-use crate::tolerances::{STEPS_PER_ACTION, SUCCESS, TIME};
+use crate::tolerances::STEPS_PER_ACTION;
 use crate::venue::{self, MazeRun, Venue};
 use tolman_arena::Mind;
 use tolman_arena::cast::Agent;
@@ -77,9 +77,6 @@ fn table(venue: &Venue) -> Table {
     };
     venue
         .table::<MazeRun>()
-        .metric(Metric::percent("success_percent", MazeRun::reached).tolerance(SUCCESS))
-        .metric(Metric::mean(MazeRun::actions).tolerance(TIME))
-        .metric(Metric::mean(MazeRun::steps).tolerance(TIME))
         .metric(
             Metric::ratio("steps_per_action", MazeRun::steps, MazeRun::actions)
                 .titled("steps / action")

@@ -11,6 +11,7 @@ use tolman_robot::Robot as _;
 use tolman_robot::epuck::WheelSpeeds;
 use tolman_sim::robots::Epuck;
 
+use crate::rows::row_of;
 use tolman_arena::course::Course;
 use tolman_arena::cpm::{epuck, survey, walker_config};
 use tolman_experiment::{
@@ -222,9 +223,8 @@ pub(super) fn run(courses: &[Course], job: &Job<'_>) -> Result<Fields, BoxError>
             walk(course, job.seed, &mut tally)?;
             continue;
         }
-        let (setting, width) = settings()
-            .find(|(setting, width)| row(setting, *width) == job.row)
-            .ok_or("there is no such row")?;
+        let is_of_row = |(setting, width): &(&Setting, _)| row(setting, *width) == job.row;
+        let (setting, width) = row_of(job, settings(), is_of_row)?;
         let width = width.unwrap_or(course.corridor_width);
         let course = Course::new(&course.name, course.maze.clone(), width)?;
         sweep_all(setting, &course, job.seed, &mut rng, &mut tally)?;

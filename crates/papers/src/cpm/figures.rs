@@ -16,7 +16,7 @@ pub(super) fn of(experiment: &Cpm, runs: &[Run]) -> Result<Vec<Figure>, BoxError
     for (number, course) in (1_u32..).zip(&experiment.courses) {
         for (suffix, kind) in [("", "paper"), (BETTER, "better")] {
             let row = format!("{}{suffix}", course.name);
-            let of_row = |run: &&Run| run.table == FIGURE_9 && run.row == row;
+            let of_row = |run: &&Run| run.is_of(FIGURE_9, &row);
             let runs = runs.iter().filter(of_row);
             let runs = runs.map(|run| Ok((run, run.record()?)));
             let runs: Vec<(&Run, TrialRun)> = runs.collect::<Result<_, FieldsError>>()?;

@@ -2,14 +2,15 @@
 
 use rand::{Rng, RngExt};
 use serde::Serialize;
-use tolman_arena::contest::{Claim, Condition, Contest, LearnRecord, Moment};
+use tolman_arena::contest::{Claim, Condition, Contest, ContestRecord, Moment};
 use tolman_arena::family::{Family, FamilySize};
 use tolman_arena::registry::{Registry, Schooling};
-use tolman_arena::run::TaskEnd;
 use tolman_experiment::{BoxError, Fields, Metric, Options, Record, Row, Table, record, require};
 use tolman_maze::Maze;
 use tolman_robot::Landmark;
 use tolman_systems::stream;
+
+use crate::arena::LearnRun;
 
 /// Name of the table.
 pub(super) const FRESH: &str = "fresh worlds";
@@ -97,13 +98,13 @@ record! {
         right: bool => higher("map right"),
         /// Whether the goal is on the map.
         goal_found: bool => higher("goal found"),
-        /// Whether it declared, before it drove, that it cannot work there.
-        abstained: bool => neither("abstained"),
         /// Whether a place of the map stands for two true places.
         false_merge: Option<bool> => lower("false merges"),
         /// Whether the system's verdict on its own map is right: it is done with a right map, or
         /// gives up with a wrong one.
         verdict_right: Option<bool> => higher("own verdict right"),
+        /// Whether it declared, before it drove, that it cannot work there.
+        abstained: bool => neither("abstained"),
         /// For a wrong map: whether the system called it right.
         false_right: Option<bool> => lower("wrong maps called right"),
         /// For a right map: whether the system called it wrong.
@@ -112,11 +113,11 @@ record! {
         /// most often was.
         purity: Option<f64> => higher("purity").share().decimals(4),
         /// Number of places on the map over that of true places.
-        places_over_true: Option<f64> => lower("places / true places").at_least(0).decimals(2),
+        places_over_true: Option<f64> => lower("places / true places").at_least(0),
         /// Share of the true ways that are on the map; 0 for a system that abstained.
         link_recall: f64 => higher("link recall").share().decimals(3),
         /// Driven distance over the length of all corridors.
-        driven: Option<f64> => lower("metres / corridors").at_least(0).decimals(2),
+        driven: Option<f64> => lower("metres / corridors").at_least(0),
         /// Number of time steps in which it touched something.
         bumps: Option<u32> => lower("steps at a wall"),
         /// End of the run, with the reason.
@@ -135,41 +136,29 @@ impl FreshRun {
         require(self.abstained || either, told)
     }
 
-    /// Returns the record of a system that abstained for the reason `why`.
-    fn of_abstained(why: String) -> Self {
+    fn of(record: &ContestRecord, goal_found: bool) -> Self {
+        let run = LearnRun::of(record);
+        let learned = record.learned.as_ref();
+        let is_mixed = run.purity.is_some_and(|purity| purity < 1.0);
         Self {
-            abstained: true,
-            why,
-            ..Self::default()
-        }
-    }
-
-    fn of(learned: &LearnRecord, goal_found: bool) -> Self {
-        let (judged, claim) = (&learned.judgement, learned.claim);
-        let right = judged.is_right;
-        Self {
-            solved: right && goal_found,
-            right,
-            goal_found,
-            abstained: false,
-            false_merge: Some(judged.purity.is_some_and(|purity| purity < 1.0)),
-            verdict_right: Some(match claim {
-                Claim::Right => right,
-                Claim::Wrong => !right,
+            solved: run.right && goal_found,
+            right: run.right,
+            goal_found: goal_found && !run.abstained,
+            abstained: run.abstained,
+            false_merge: learned.map(|_| is_mixed),
+            verdict_right: learned.map(|learned| match learned.claim {
+                Claim::Right => run.right,
+                Claim::Wrong => !run.right,
                 Claim::Undecided => false,
             }),
-            false_right: (!right).then_some(claim == Claim::Right),
-            false_alarm: right.then_some(claim == Claim::Wrong),
-            purity: judged.purity,
-            places_over_true: Some(judged.places),
-            link_recall: judged.link_recall,
-            driven: Some(learned.driven),
-            bumps: Some(learned.bumps),
-            why: match &learned.end {
-                TaskEnd::Done => "done".to_owned(),
-                TaskEnd::GaveUp { why } => why.clone(),
-                TaskEnd::OutOfTime => "it had driven ten times the corridors".to_owned(),
-            },
+            false_right: run.false_right,
+            false_alarm: run.false_alarm,
+            purity: run.purity,
+            places_over_true: run.places,
+            link_recall: run.link_recall,
+            driven: run.driven,
+            bumps: run.bumps,
+            why: run.why,
         }
     }
 }
@@ -181,10 +170,7 @@ pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
         .metric(Metric::percent("solved_percent", FreshRun::solved))
         .metric(Metric::percent("false_merges_percent", FreshRun::false_merge))
         .metric(Metric::percent("own_verdict_right_percent", FreshRun::verdict_right))
-        .metric(Metric::percent("abstained_percent", FreshRun::abstained))
-        .metric(Metric::percent("false_right_percent", FreshRun::false_right))
-        .metric(Metric::percent("false_alarm_percent", FreshRun::false_alarm))
-        .metrics_from(FreshRun::purity)
+        .metrics_from(FreshRun::abstained)
         .rows(rows.iter().map(|row| Row::new(&row.row).runs(worlds)))
         .note(
             "Each run draws its own world from its seed, of the arena's families and of middle size. \
@@ -247,11 +233,7 @@ impl FreshRow {
                     .any(|place| place.landmark == Some(Landmark::Goal));
             }
         })?;
-        let run = match (record.learned, record.abstained) {
-            (Some(learned), _) => FreshRun::of(&learned, goal_found),
-            (None, why) => FreshRun::of_abstained(why.unwrap_or_default()),
-        };
-        Ok(run.fields()?)
+        Ok(FreshRun::of(&record, goal_found).fields()?)
     }
 }
 
@@ -295,7 +277,8 @@ mod tests {
             ..FreshRun::default()
         };
         right.relations().unwrap();
-        FreshRun::of_abstained(String::new()).relations().unwrap();
+        let abstained = FreshRun::of(&ContestRecord::default(), false);
+        abstained.relations().unwrap();
         let unsaid = FreshRun {
             verdict_right: None,
             ..right.clone()

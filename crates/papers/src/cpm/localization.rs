@@ -1,9 +1,11 @@
 //! A robot that knows several mazes is put down in mid-fragment of one of them (section 8, "the
 //! start point is changed", and layer 4).
 
-use std::sync::OnceLock;
+use alloc::sync::Arc;
 
 use super::{mazes, trials};
+use crate::kept::Kept;
+use crate::rows::row_of;
 use tolman_arena::course::Course;
 use tolman_arena::cpm::{KnownMaze, PutDown, PutDownRecord, TrialRecord, epuck};
 use tolman_experiment::Record as _;
@@ -24,7 +26,7 @@ const RUNS: u32 = 100;
 
 /// Number of maps learned of each maze, which runs use in turn. Aliased mazes have a new map in
 /// each run.
-const MAPS: usize = 20;
+const MAPS: u32 = 20;
 
 /// Number of runs of a row for a first look.
 const QUICK_RUNS: u32 = 5;
@@ -98,9 +100,9 @@ impl LocalizationRun {
     }
 }
 
-/// Several maps of each maze. The first caller learns them.
+/// Several maps of each maze, by their number.
 #[derive(Debug, Default)]
-pub(super) struct Known([OnceLock<Vec<TrialRecord>>; MAPS]);
+pub(super) struct Known(Kept<u32, Vec<TrialRecord>>);
 
 /// Returns the maze of a row, and the robot's approach.
 fn cast(row: &str) -> (&str, Approach) {
@@ -113,7 +115,7 @@ fn cast(row: &str) -> (&str, Approach) {
 /// Returns the name of the maps that a run uses; `None` for a run in a maze of its own.
 pub(super) fn maps_of(job: &Job<'_>) -> Option<String> {
     let (maze, _) = cast(job.row);
-    (maze != ALIASED).then(|| format!("maps {}", job.run as usize % MAPS))
+    (maze != ALIASED).then(|| format!("maps {}", job.run % MAPS))
 }
 
 /// Returns the table of robots put down in mid-fragment.
@@ -151,15 +153,12 @@ impl Known {
         patterns: &CommonPatterns,
         master_seed: u64,
         run: u32,
-    ) -> Result<&[TrialRecord], BoxError> {
-        let number = run as usize % MAPS;
-        if let Some(records) = self.0[number].get() {
-            return Ok(records);
-        }
+    ) -> Result<Arc<Vec<TrialRecord>>, BoxError> {
+        let number = run % MAPS;
         let solved = |course: &Course| {
             for attempt in 0..ATTEMPTS {
                 // These seeds differ from those of the table's runs.
-                let attempt = number as u32 * ATTEMPTS + attempt;
+                let attempt = number * ATTEMPTS + attempt;
                 let seed = run_seed(master_seed, "localization maps", attempt);
                 let record = trials::trial(course, patterns, trials::better(), seed).play()?;
                 if record.is_solved() {
@@ -168,10 +167,7 @@ impl Known {
             }
             Err(format!("no trial of {} was solved", course.name).into())
         };
-        let records: Result<_, BoxError> = courses.iter().map(solved).collect();
-        let records = records?;
-        // If two threads learn them at once, they learn the same.
-        Ok(self.0[number].get_or_init(|| records))
+        self.0.get(number, || courses.iter().map(solved).collect())
     }
 
     /// Plays a run: one robot that is put down.
@@ -189,11 +185,12 @@ impl Known {
         let records = self.records(courses, patterns, master_seed, job.run)?;
         let known: Vec<KnownMaze<'_>> = courses
             .iter()
-            .zip(records)
+            .zip(&*records)
             .map(|(course, learned)| KnownMaze { course, learned })
             .collect();
-        let here = courses.iter().position(|course| course.name == maze);
-        let here = here.ok_or("there is no such row")?;
+        let (here, _) = row_of(job, courses.iter().enumerate(), |(_, course)| {
+            course.name == maze
+        })?;
         let record = put_down(&known, here, patterns, approach, job.seed).play()?;
         let record = record.ok_or("no fragment is long enough to stand amid")?;
         Ok(LocalizationRun::of(&record).fields()?)

@@ -23,6 +23,7 @@ use alloc::collections::BTreeMap;
 use serde::Serialize;
 use tolman_sim::robots::EpuckConfig;
 
+use crate::rows::row_of;
 use tolman_arena::course::Course;
 use tolman_arena::cpm::{TrialRecord, epuck, learn};
 use tolman_arena::diktiometry::EpuckSurveyConfig;
@@ -155,7 +156,7 @@ impl Cpm {
     /// Returns maze and mode of a run that is a trial; `None` for another run.
     fn cast(&self, job: &Job<'_>) -> Result<Option<(Course, Mode)>, BoxError> {
         match job.table {
-            EPISODES => Ok(Some((self.course(job.row)?.clone(), trials::faithful()))),
+            EPISODES => Ok(Some((self.course(job)?.clone(), trials::faithful()))),
             _ => match self.trials_of(job.table) {
                 Some(trials) => trials.cast(job).map(Some),
                 None => Ok(None),
@@ -177,14 +178,8 @@ impl Cpm {
         self.trials.iter().find(|trials| trials.table.name == table)
     }
 
-    fn fresh(&self, job: &Job<'_>) -> Result<&FreshRow, BoxError> {
-        let row = self.fresh.iter().find(|row| row.row == job.row);
-        row.ok_or_else(|| format!("there is no row {:?}", job.row).into())
-    }
-
-    fn course(&self, name: &str) -> Result<&Course, BoxError> {
-        let course = self.courses.iter().find(|course| course.name == name);
-        course.ok_or_else(|| format!("there is no row {name:?}").into())
+    fn course(&self, job: &Job<'_>) -> Result<&Course, BoxError> {
+        row_of(job, &self.courses, |course| course.name == job.row)
     }
 
     fn config(&self) -> Result<toml::Table, BoxError> {
@@ -217,9 +212,12 @@ impl Procedure for Cpm {
                 let known = &self.known;
                 known.run(&self.courses, &self.patterns, self.master_seed, job)
             }
-            FRESH => self.fresh(job)?.run(&self.schooling, job.seed),
-            EPISODES => episodes::run(self.course(job.row)?, &self.patterns, job),
-            PLACES => places::run(self.course(job.row)?, job),
+            FRESH => {
+                let row = row_of(job, &self.fresh, |row| row.row == job.row)?;
+                row.run(&self.schooling, job.seed)
+            }
+            EPISODES => episodes::run(self.course(job)?, &self.patterns, job),
+            PLACES => places::run(self.course(job)?, job),
             DICTIONARY => dictionary::run(&self.learning, job),
             DETECTOR => detector::run(&self.courses, job),
             table => match self.trials_of(table) {

@@ -9,6 +9,7 @@ use tolman_sim::robots::{Epuck, EpuckConfig};
 
 use super::trials::faithful;
 use super::{agree, less, mazes};
+use crate::kept::once;
 use crate::tolerances::{COUNTED, SAVED, SUCCESS};
 use tolman_arena::course::Course;
 use tolman_arena::cpm::{CpmRun, SimulatedEpuck, learn_by, slow_epuck, walker_config};
@@ -68,15 +69,13 @@ impl Real {
         })
     }
 
-    /// Returns the learned patterns. Learning takes a second; if two threads ask at once, they
-    /// learn the same.
+    /// Returns the learned patterns. Learning takes a second.
     fn patterns(&self) -> Result<&CommonPatterns, BoxError> {
-        if let Some(patterns) = self.patterns.get() {
-            return Ok(patterns);
-        }
-        let config = walker(&self.learning)?;
-        let patterns = learn_by(&self.learning, slow_epuck(), config, LESSON, self.seed)?;
-        Ok(self.patterns.get_or_init(|| patterns))
+        once(&self.patterns, || {
+            let config = walker(&self.learning)?;
+            let learned = learn_by(&self.learning, slow_epuck(), config, LESSON, self.seed);
+            Ok(learned?)
+        })
     }
 
     /// Plays the way to the goal, back, and to the goal again, and returns it. Calls `see` with

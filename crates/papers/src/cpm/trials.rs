@@ -3,6 +3,8 @@
 use alloc::collections::BTreeMap;
 
 use super::{agree, less, mazes};
+use crate::metrics::UsualMetrics as _;
+use crate::rows::row_of;
 use crate::tolerances::SUCCESS;
 use tolman_arena::course::Course;
 use tolman_arena::cpm::{BendLikeness, CpmTrial, TrialRecord, epuck};
@@ -97,18 +99,18 @@ pub(super) fn figure_9(courses: &[Course], papers: bool) -> Trials {
     let settings = in_modes(courses, modes);
     let least = Metric::least("reduction_min_percent", TrialRun::reduction);
     let table = Table::of::<TrialRun>(FIGURE_9, "Time from the first to the second episode")
-    .metric(solved())
-    .metric(as_it_lies())
-    .metric(map_right())
+    .metrics([TrialRun::solved, TrialRun::shortest_as_it_lies, TrialRun::map_right])
     .metric(least.titled("least time saved"))
     .metric(reduction())
-    .metric(Metric::percent("long_percent", TrialRun::long))
+    .metrics([TrialRun::long])
     .metric(Metric::mean(TrialRun::reduction_long).named("reduction_long_percent"))
-    .metric(Metric::mean(TrialRun::closure_precision))
-    .metric(Metric::mean(TrialRun::closure_recall))
-    .metric(Metric::mean(TrialRun::seconds_1))
-    .metric(Metric::mean(TrialRun::seconds_2))
-    .metric(Metric::mean(TrialRun::bumps))
+    .metrics([
+        TrialRun::closure_precision,
+        TrialRun::closure_recall,
+        TrialRun::seconds_1,
+        TrialRun::seconds_2,
+        TrialRun::bumps,
+    ])
     .paper_runs(10)
     .note(format!(
         "Solved: the goal was found, and found again by a way as short as any that could be known. \
@@ -161,11 +163,13 @@ pub(super) fn offline(courses: &[Course]) -> Trials {
     let offline = Mode::Paper(CpmConfig::offline());
     let settings = in_modes(courses, [(OFFLINE, offline), (" online", faithful())]);
     let table = Table::of::<TrialRun>("offline", "Offline against online CPM")
-        .metric(solved())
-        .metric(Metric::mean(TrialRun::traversals))
-        .metric(Metric::mean(TrialRun::true_fragments))
-        .metric(Metric::mean(TrialRun::seconds_1))
-        .metric(Metric::mean(TrialRun::seconds_2))
+        .metrics([
+            TrialRun::solved,
+            TrialRun::traversals,
+            TrialRun::true_fragments,
+            TrialRun::seconds_1,
+            TrialRun::seconds_2,
+        ])
         .note(
             "Offline the robot takes random ports and compares its map only when the goal is found \
              (section 4); online it does so before each decision (section 6). Rows of one maze have \
@@ -180,12 +184,14 @@ pub(super) fn unlearned(courses: &[Course]) -> Trials {
     let mut settings = in_modes(courses, [("", mode)]);
     settings.push(Setting::aliased("Aliased", mode));
     let table = Table::of::<UnlearnedRun>("unlearned", "Patterns learned on the way")
-        .metric(solved())
-        .metric(map_right())
-        .metric(Metric::mean(TrialRun::closure_precision))
-        .metric(Metric::mean(TrialRun::closure_recall))
+        .metrics([
+            TrialRun::solved,
+            TrialRun::map_right,
+            TrialRun::closure_precision,
+            TrialRun::closure_recall,
+        ])
         .metric(reduction())
-        .metric(Metric::mean(UnlearnedRun::patterns))
+        .metrics_from(UnlearnedRun::patterns)
         .note(
             "The better robot without a learning maze. An observation unlike all its patterns \
              becomes a pattern, and older sequences stay valid. Aliased: one random maze per run.",
@@ -207,15 +213,16 @@ pub(super) fn aliased(options: &Options) -> Trials {
     let rows = [("Better", better()), ("Faithful", Mode::Paper(patient))];
     let settings = Vec::from(rows.map(|(row, mode)| Setting::aliased(row, mode)));
     let table = Table::of::<AliasedRun>("aliased", "Mazes with fragments that look alike")
-        .metric(solved())
-        .metric(map_right())
-        .metric(Metric::percent("shortest_known_percent", AliasedRun::shortest_known))
-        .metric(as_it_lies())
-        .metric(Metric::mean(TrialRun::closure_precision))
-        .metric(Metric::mean(TrialRun::closure_recall))
-        .metric(Metric::mean(TrialRun::bumps))
-        .metric(Metric::mean(AliasedRun::alike_pairs))
-        .metric(Metric::mean(AliasedRun::symmetrical))
+        .metrics([
+            TrialRun::solved,
+            TrialRun::map_right,
+            AliasedRun::shortest_known,
+            TrialRun::shortest_as_it_lies,
+            TrialRun::closure_precision,
+            TrialRun::closure_recall,
+            TrialRun::bumps,
+        ])
+        .metrics_from(AliasedRun::alike_pairs)
         .note(format!(
             "One random maze per run, the same for both rows, in which two fragments or more bend \
              alike, cell by cell, from one end or the other. Symmetrical ones bend the same from \
@@ -242,21 +249,6 @@ pub(super) fn aliased(options: &Options) -> Trials {
     })
 }
 
-/// Returns the metric of solved trials.
-fn solved() -> Metric {
-    Metric::percent("solved_percent", TrialRun::solved).tolerance(SUCCESS)
-}
-
-/// Returns the metric of right maps.
-fn map_right() -> Metric {
-    Metric::percent("map_right_percent", TrialRun::map_right)
-}
-
-/// Returns the stricter metric of solved trials: the shortest way on the true map.
-fn as_it_lies() -> Metric {
-    Metric::percent("shortest_as_it_lies_percent", TrialRun::shortest_as_it_lies)
-}
-
 /// Returns the metric of time saved in the second episode.
 fn reduction() -> Metric {
     Metric::mean(TrialRun::reduction).named("reduction_percent")
@@ -268,7 +260,7 @@ record! {
     pub(super) struct TrialRun {
         /// Whether the goal was found, and found again by a way as short as any that could be
         /// known.
-        solved: bool => higher("solved"),
+        solved: bool => higher("solved").tolerance(SUCCESS),
         /// Whether that way was as short as any over the same fragments, joined as they truly are.
         shortest_as_it_lies: bool => higher("shortest on true map"),
         /// Whether every junction and fragment is on the map exactly once, and all are joined as
@@ -358,9 +350,7 @@ impl Trials {
 
     /// Returns maze and mode of a run.
     pub(super) fn cast(&self, job: &Job<'_>) -> Result<(Course, Mode), BoxError> {
-        let mut settings = self.settings.iter();
-        let setting = settings.find(|setting| setting.row == job.row);
-        let setting = setting.ok_or_else(|| format!("there is no row {:?}", job.row))?;
+        let setting = row_of(job, &self.settings, |setting| setting.row == job.row)?;
         let course = match &setting.course {
             Some(course) => course.clone(),
             None => mazes::aliased(job.seed)?,

@@ -23,8 +23,7 @@ pub(super) fn of(trials: &[Trial], runs: &[Run]) -> Result<Vec<Figure>, BoxError
         figures.push(errors(trial, runs)?);
         let maps = trial.settings.iter().enumerate();
         for (number, setting) in maps.filter(|(_, setting)| setting.subject == Subject::Map) {
-            let first =
-                |run: &&Run| run.table == trial.name && run.row == setting.row && run.run == 0;
+            let first = |run: &&Run| run.is_of(trial.name, setting.row) && run.run == 0;
             if let Some(run) = runs.iter().find(first) {
                 figures.push(map(trial, setting, run, number)?);
             }

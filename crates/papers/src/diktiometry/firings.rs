@@ -102,33 +102,33 @@ record! {
         /// Number by LINK.
         links: u32 => neither("LINK").decimals(1),
         /// Number by α-MATCH.
-        alphas: u32 => neither("α-MATCH").decimals(2),
+        alphas: u32 => neither("α-MATCH"),
         /// Number by β-MATCH.
-        betas: u32 => neither("β-MATCH").decimals(2),
+        betas: u32 => neither("β-MATCH"),
         /// Number of new places.
         new_places: u32 => neither("new places").decimals(1),
         /// Number of moves at which the dynamic order preferred another match than the static one.
-        reordered: u32 => neither("dynamic order").decimals(2),
+        reordered: u32 => neither("dynamic order"),
         /// Number of merges first proposed by geometric constraints.
-        merged_by_geometry: u32 => neither("merges: geometry").decimals(2),
+        merged_by_geometry: u32 => neither("merges: geometry"),
         /// Number by the ways of a static world.
-        merged_by_one_way: u32 => neither("ways").decimals(2),
+        merged_by_one_way: u32 => neither("ways"),
         /// Number by turns.
-        merged_by_winding: u32 => neither("turns").decimals(2),
+        merged_by_winding: u32 => neither("turns"),
         /// Number by local path constraints.
-        merged_by_local_path: u32 => neither("local path").decimals(2),
+        merged_by_local_path: u32 => neither("local path"),
         /// Number by non-local path constraints.
-        merged_by_non_local_path: u32 => neither("non-local path").decimals(2),
+        merged_by_non_local_path: u32 => neither("non-local path"),
         /// Number by looks.
-        merged_by_looks: u32 => neither("looks").decimals(2),
+        merged_by_looks: u32 => neither("looks"),
         /// Number of splits by geometric constraints.
-        split_by_geometry: u32 => neither("splits: geometry").decimals(2),
+        split_by_geometry: u32 => neither("splits: geometry"),
         /// Number of splits by local path constraints.
-        split_by_local_path: u32 => neither("splits: local path").decimals(2),
+        split_by_local_path: u32 => neither("splits: local path"),
         /// Number of links removed as transient.
-        elided_links: u32 => neither("links elided").decimals(2),
+        elided_links: u32 => neither("links elided"),
         /// Number of places removed as transient.
-        elided_places: u32 => neither("places elided").decimals(2),
+        elided_places: u32 => neither("places elided"),
         /// Number of contradictions that were noticed.
         contradictions: usize => neither("contradictions").decimals(1),
     }

@@ -22,6 +22,7 @@ use super::objection::{Listener, Statement};
 use super::settings::{BARE, FURNISHED, HEED, WALLED_UP};
 use super::share;
 use super::standstill::Standstill;
+use crate::metrics::UsualMetrics as _;
 
 /// Name of the table.
 pub(super) const FRESH: &str = "fresh worlds";
@@ -230,7 +231,7 @@ record! {
         /// Share of the visits that were to the true place that their place on the map stands for.
         purity: f64 => higher("purity").share().decimals(4),
         /// Number of places on the map per visited true place.
-        places_over_true: f64 => lower("places / true places").at_least(0).decimals(2),
+        places_over_true: f64 => lower("places / true places").at_least(0),
         /// Whether no place is confused with another, and at least 95 % of the visited places are
         /// on the map once.
         places_once: bool => higher("places once"),
@@ -298,27 +299,30 @@ fn is_whole(places: f64, ways: f64) -> bool {
 pub(super) fn table(rows: &[FreshRow], options: &Options) -> Table {
     let runs = |row: &FreshRow| options.runs_else(row.worlds, QUICK);
     Table::of::<FreshRun>(FRESH, "Fresh worlds: each run another drawing")
-        .metric(Metric::percent("right_percent", FreshRun::right))
-        .metric(Metric::percent("right_of_visited_percent", FreshRun::right_of_visited))
-        .metric(Metric::mean(FreshRun::purity))
-        .metric(Metric::mean(FreshRun::places_over_true))
-        .metric(Metric::percent("places_once_percent", FreshRun::places_once))
-        .metric(Metric::mean(FreshRun::seen))
+        .metrics([
+            FreshRun::right,
+            FreshRun::right_of_visited,
+            FreshRun::purity,
+            FreshRun::places_over_true,
+            FreshRun::places_once,
+            FreshRun::seen,
+        ])
         .metric(Metric::greatest("longest_standstill", FreshRun::standstill))
-        .metric(Metric::mean(FreshRun::link_recall))
-        .metric(Metric::mean(FreshRun::link_precision))
+        .metrics([FreshRun::link_recall, FreshRun::link_precision])
         .metric(Metric::total(FreshRun::geometric_certificates))
         .metric(Metric::total(FreshRun::false_geometric))
         .metric(Metric::total(FreshRun::bounds_after_looks))
         .metric(Metric::total(FreshRun::false_after_looks))
         .metric(Metric::total(FreshRun::look_certificates))
         .metric(Metric::total(FreshRun::false_looks))
-        .metric(Metric::total(FreshRun::stated_chances).decimals(4))
+        .metric(Metric::total(FreshRun::stated_chances))
         .metric(Metric::total(FreshRun::unproven))
-        .metric(Metric::percent("said_unfolded_percent", FreshRun::said_unfolded))
-        .metric(Metric::percent("said_contradictory_percent", FreshRun::said_contradictory))
-        .metric(Metric::percent("verdict_right_percent", FreshRun::verdict_right))
-        .metric(Metric::percent("objected_soon_percent", FreshRun::objected_soon))
+        .metrics([
+            FreshRun::said_unfolded,
+            FreshRun::said_contradictory,
+            FreshRun::verdict_right,
+            FreshRun::objected_soon,
+        ])
         .metric(Metric::greatest("slowest_objection", FreshRun::objection_delay))
         .rows(rows.iter().map(|row| Row::new(row.row).runs(runs(row))))
         .row(Row::of_all(ALL_RUNS))
@@ -439,35 +443,32 @@ impl FreshRun {
         } = certify_merges(config, journal)?;
         verify_merges(config, journal, &certificates)?;
         let site = |visit: usize| survey.sites()[visit];
-        let mut run = Self {
-            geometric_certificates: Some(0),
-            false_geometric: Some(0),
-            bounds_after_looks: Some(0),
-            false_after_looks: Some(0),
-            look_certificates: Some(0),
-            false_looks: Some(0),
-            stated_chances: Some(0.0),
-            unproven: Some(unproven.len()),
-            ..self
-        };
+        // All proofs of a kind, and the false ones.
+        let (mut geometric, mut after_looks, mut by_looks) = ([0, 0], [0, 0], [0, 0]);
+        let mut stated_chances = 0.0;
         for certificate in &certificates {
             let [one, other] = certificate.visits.map(site);
-            let wrong = usize::from(one != other);
-            let (all, bad) = match &certificate.proof {
+            let [all, wrong] = match &certificate.proof {
                 MergeProof::Looks(evidence) => {
-                    run.stated_chances = run.stated_chances.map(|sum| sum + evidence.chance);
-                    (&mut run.look_certificates, &mut run.false_looks)
+                    stated_chances += evidence.chance;
+                    &mut by_looks
                 }
-                _ if certificate.rests_on_looks => {
-                    (&mut run.bounds_after_looks, &mut run.false_after_looks)
-                }
-                MergeProof::Bounds(_) | MergeProof::Winding(_) => {
-                    (&mut run.geometric_certificates, &mut run.false_geometric)
-                }
+                _ if certificate.rests_on_looks => &mut after_looks,
+                MergeProof::Bounds(_) | MergeProof::Winding(_) => &mut geometric,
             };
-            *all = all.map(|count| count + 1);
-            *bad = bad.map(|count| count + wrong);
+            *all += 1;
+            *wrong += usize::from(one != other);
         }
-        Ok(run)
+        Ok(Self {
+            geometric_certificates: Some(geometric[0]),
+            false_geometric: Some(geometric[1]),
+            bounds_after_looks: Some(after_looks[0]),
+            false_after_looks: Some(after_looks[1]),
+            look_certificates: Some(by_looks[0]),
+            false_looks: Some(by_looks[1]),
+            stated_chances: Some(stated_chances),
+            unproven: Some(unproven.len()),
+            ..self
+        })
     }
 }

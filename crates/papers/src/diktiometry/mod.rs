@@ -13,6 +13,7 @@ mod standstill;
 
 use alloc::collections::BTreeMap;
 
+use crate::rows::row_of;
 use tolman_arena::diktiometry::{ErrorSummary, NEAR, PlanTrial, Survey, TAIL, WINDOW};
 use tolman_draw::Figure;
 use tolman_experiment::{
@@ -177,25 +178,15 @@ fn share(part: usize, whole: usize) -> Option<f64> {
     (whole > 0).then(|| part as f64 / whole as f64)
 }
 
-/// Returns the row that a job is of.
-fn row_of<'a, R>(
-    rows: &'a [R],
-    name: fn(&R) -> &'static str,
-    job: &Job<'_>,
-) -> Result<&'a R, BoxError> {
-    let row = rows.iter().find(|row| name(row) == job.row);
-    row.ok_or_else(|| format!("there is no row {:?}", job.row).into())
-}
-
 impl Diktiometry {
     fn setting(&self, job: &Job<'_>) -> Result<&Setting, BoxError> {
-        let trial = self.trials.iter().find(|trial| trial.name == job.table);
-        let settings = trial.map_or(&[][..], |trial| &trial.settings);
-        row_of(settings, |setting| setting.row, job)
+        let trials = self.trials.iter().filter(|trial| trial.name == job.table);
+        let settings = trials.flat_map(|trial| &trial.settings);
+        row_of(job, settings, |setting| setting.row == job.row)
     }
 
     fn fresh(&self, job: &Job<'_>) -> Result<&FreshRow, BoxError> {
-        row_of(&self.fresh, |row| row.row, job)
+        row_of(job, &self.fresh, |row| row.row == job.row)
     }
 }
 
@@ -205,10 +196,10 @@ impl Procedure for Diktiometry {
             return self.fresh(job)?.run(job.seed);
         }
         if job.table == ODOMETRY_OFF {
-            return row_of(&self.blind, |row| row.row, job)?.run(job.seed);
+            return row_of(job, &self.blind, |row| row.row == job.row)?.run(job.seed);
         }
         if job.table == PARTS {
-            return row_of(&self.parts, |row| row.fresh.row, job)?.run(job.seed);
+            return row_of(job, &self.parts, |row| row.fresh.row == job.row)?.run(job.seed);
         }
         let setting = self.setting(job)?;
         let mut plans = Vec::new();

@@ -3,7 +3,7 @@
 use rand::RngExt;
 use tolman_arena::bump_walk::{BumpSight, BumpWalk};
 use tolman_arena::family::{Family, FamilySize};
-use tolman_experiment::{BoxError, Fields, Metric, Options, Record, Row, Table, record};
+use tolman_experiment::{BoxError, Fields, Options, Record, Row, Table, record};
 use tolman_maze::Direction;
 use tolman_systems::stream;
 
@@ -91,12 +91,7 @@ record! {
 pub(super) fn table(rows: &[BlindRow], options: &Options) -> Table {
     let runs = options.runs_else(WORLDS, QUICK);
     Table::of::<BlindRun>(ODOMETRY_OFF, "Odometry off: actions and bumps alone, each run another world")
-        .metric(Metric::percent("exact_percent", BlindRun::exact))
-        .metric(Metric::percent("said_right_percent", BlindRun::said_right))
-        .metric(Metric::percent("false_right_percent", BlindRun::false_right))
-        .metric(Metric::mean(BlindRun::moves))
-        .metric(Metric::mean(BlindRun::places))
-        .metric(Metric::mean(BlindRun::cells))
+        .metrics_from(BlindRun::exact)
         .rows(rows.iter().map(|row| Row::new(row.row).runs(runs)))
         .note(
             "The robot goes from cell to cell to the north, east, south or west, or bumps and stays. \

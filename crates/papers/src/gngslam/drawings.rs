@@ -2,8 +2,7 @@
 
 use tolman_arena::gngslam::{CellGrid, FieldFromMap, GoalNodes};
 use tolman_draw::{
-    Axis, Chart, Drawing, Figure, GraphEdge, GraphNode, GraphPicture, Image, NodeMark, Series,
-    Tiles,
+    Axis, Chart, Drawing, Figure, GraphNode, GraphPicture, Image, NodeMark, Series, Tiles,
 };
 use tolman_experiment::{BoxError, Run};
 use tolman_geom::Point;
@@ -15,6 +14,7 @@ use super::MapRun;
 use super::search_space::{COUNT, LAMBDA, Parameters, WINNER_RATE};
 use super::searches::Searches;
 use super::sets::{Setting, TABLE, settings};
+use crate::plan::network_graph;
 
 /// Values of the appendix that differ from the best parameters: the middle of "200 and 250", and
 /// 0.052.
@@ -186,7 +186,9 @@ fn drawn(
         .ids()
         .filter_map(|node| Some((node, place(node)?)))
         .collect();
-    chart.graph(links(map, &nodes));
+    chart.graph(network_graph(map.network(), |node| {
+        Some(GraphNode::at(place(node)?).series(Series(2)))
+    }));
     // With many nodes the images are smaller.
     let width = IMAGE.min(IMAGE * libm::sqrt(10.0 / nodes.len().max(1) as f64));
     for (node, at) in &nodes {
@@ -206,20 +208,6 @@ fn drawn(
     }
     chart.graph(marks);
     Ok(chart.drawing(format!("{} nodes with their images.", nodes.len())))
-}
-
-fn links(map: &PlaceMap, nodes: &[(UnitId, Point)]) -> GraphPicture {
-    let mut graph = GraphPicture::new();
-    for (_, at) in nodes {
-        graph.node(GraphNode::at(*at).series(Series(2)));
-    }
-    let index = |id| nodes.iter().position(|(node, _)| *node == id);
-    for edge in map.network().edges() {
-        if let (Some(from), Some(to)) = (index(edge.ends.0), index(edge.ends.1)) {
-            graph.edge(GraphEdge::between(from, to).series(Series(2)));
-        }
-    }
-    graph
 }
 
 fn image(picture: &Picture) -> Result<Image, BoxError> {

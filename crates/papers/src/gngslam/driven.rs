@@ -3,8 +3,8 @@
 use rand::RngExt;
 use tolman_arena::gngslam::{Pitch, gather_by};
 use tolman_arena::run::{TaskEnd, within};
-use tolman_draw::{Figure, FloorPlan, GraphEdge, GraphNode, GraphPicture, NodeMark, Series};
-use tolman_experiment::{BoxError, Fields, Job, Metric, Options, Record, Row, Run, Table, record};
+use tolman_draw::{Figure, FloorPlan, GraphNode, NodeMark, Series};
+use tolman_experiment::{BoxError, Fields, Job, Options, Record, Row, Run, Table, record};
 use tolman_geom::{Point, Pose};
 use tolman_maps::place_map::{
     ColourSpace, FeatureChoice, FeatureTable, ImageFeature, ImageForm, PlaceMap, PlaceMapConfig,
@@ -12,6 +12,9 @@ use tolman_maps::place_map::{
 };
 use tolman_systems::gngslam::{PlacePilot, PlacePilotConfig, Wanderer, WandererConfig};
 use tolman_systems::stream;
+
+use crate::plan::network_graph;
+use crate::rows::row_of;
 
 /// Name of the table.
 const DRIVEN: &str = "driven";
@@ -42,9 +45,9 @@ record! {
     struct DrivenFields {
         /// Mean distance at the end of a drive between the robot's true position and that of the
         /// record.
-        error_m: f64 => lower("error at the goal").unit("m").decimals(2),
+        error_m: f64 => lower("error at the goal").unit("m"),
         /// Mean distance at the beginning of a drive.
-        start_m: f64 => neither("distance at the start").unit("m").decimals(2),
+        start_m: f64 => neither("distance at the start").unit("m"),
         /// Share of drives that truly ended within 1 m of their record.
         near_percent: f64 => higher("within 1 m").percent(),
         /// Share of drives that began within 1 m of it.
@@ -66,13 +69,7 @@ pub(super) fn has(table: &str) -> bool {
 pub(super) fn table(options: &Options) -> Table {
     let runs = options.runs_else(RUNS, QUICK_RUNS);
     Table::of::<DrivenFields>(DRIVEN, "Ways planned on the paper's map, and driven")
-        .metric(Metric::mean(DrivenFields::error_m))
-        .metric(Metric::mean(DrivenFields::start_m))
-        .metric(Metric::mean(DrivenFields::near_percent))
-        .metric(Metric::mean(DrivenFields::near_at_start_percent))
-        .metric(Metric::mean(DrivenFields::done_percent))
-        .metric(Metric::mean(DrivenFields::pieces))
-        .metric(Metric::mean(DrivenFields::nodes))
+        .metrics_from(DrivenFields::error_m)
         .rows(ROWS.map(|(row, _)| Row::new(row).runs(runs)))
         .note(format!(
             "Each run gathers {RECORDS} records, and learns a map of image (40 × 30, hsv) and \
@@ -116,10 +113,9 @@ impl PlaceDrive {
     }
 }
 
-fn driven(row: &str, seed: u64) -> Result<DrivenMap, BoxError> {
-    let period = ROWS.iter().find(|(name, _)| *name == row);
-    let (_, period) = period.ok_or_else(|| format!("there is no row {row:?} of {DRIVEN}"))?;
-    drive_place_map(*period, seed, RECORDS, DRIVES)
+fn driven(job: &Job<'_>) -> Result<DrivenMap, BoxError> {
+    let (_, period) = row_of(job, ROWS, |(name, _)| *name == job.row)?;
+    drive_place_map(period, job.seed, RECORDS, DRIVES)
 }
 
 /// Gathers `records` records on the pitch and learns a place map of image and odometry with the
@@ -169,7 +165,7 @@ fn drive_place_map(
 }
 
 pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
-    let DrivenMap { map, drives, .. } = driven(job.row, job.seed)?;
+    let DrivenMap { map, drives, .. } = driven(job)?;
     let mean = |of: &dyn Fn(&PlaceDrive) -> f64| {
         drives.iter().map(of).sum::<f64>() / drives.len().max(1) as f64
     };
@@ -197,31 +193,20 @@ const SHOWN: usize = 3;
 /// Returns the map of the last row's first run over the pitch, with the first drives by it.
 pub(super) fn figures(runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     let (row, _) = ROWS[1];
-    let mut of_row = runs
-        .iter()
-        .filter(|run| run.table == DRIVEN && run.row == row);
-    let Some(run) = of_row.next() else {
+    let Some(run) = runs.iter().find(|run| run.is_of(DRIVEN, row)) else {
         return Ok(Vec::new());
     };
     let DrivenMap {
         map,
         world_from_map,
         drives,
-    } = driven(row, run.seed)?;
+    } = driven(&run.job())?;
     let mut plan = FloorPlan::of_world(&Pitch::named("pitch")?.course.world, WIDTH);
-    let mut graph = GraphPicture::new().radius(2.0);
-    let positions: Vec<_> = map.positions().collect();
-    for (_, position) in &positions {
-        let node = GraphNode::at(world_from_map.transform(*position)).mark(NodeMark::Ring);
-        graph.node(node.series(Series(0)));
-    }
-    let place = |node| positions.iter().position(|(id, _)| *id == node);
-    for edge in map.network().edges() {
-        if let (Some(a), Some(b)) = (place(edge.ends.0), place(edge.ends.1)) {
-            graph.edge(GraphEdge::between(a, b));
-        }
-    }
-    plan.graph(&graph);
+    let node = |id| {
+        let position = world_from_map.transform(map.position(id)?);
+        Some(GraphNode::at(position).mark(NodeMark::Ring))
+    };
+    plan.graph(&network_graph(map.network(), node).radius(2.0));
     for (series, drive) in (1..).zip(drives.iter().take(SHOWN)) {
         plan.trajectory(&drive.path, Series(series));
         plan.label(drive.goal, "goal");

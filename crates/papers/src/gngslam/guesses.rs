@@ -4,7 +4,7 @@ use crate::tolerances::{AREA, MAP_SCORE};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tolman_arena::gngslam::PointScore;
-use tolman_experiment::{BoxError, Fields, Job, Metric, Options, Record, Row, Table, record};
+use tolman_experiment::{BoxError, Fields, Job, Options, Record, Row, Table, record};
 use tolman_stats::{mean, quantile, standard_deviation};
 
 /// Name of the table.
@@ -35,10 +35,7 @@ record! {
 pub(super) fn table(options: &Options) -> Table {
     let runs = options.runs_else(RUNS, RUNS);
     Table::of::<GuessRun>(NAME, "The baseline: any position for any cell")
-        .metric(Metric::mean(GuessRun::score))
-        .metric(Metric::mean(GuessRun::median))
-        .metric(Metric::mean(GuessRun::sd))
-        .metric(Metric::mean(GuessRun::inside_percent))
+        .metrics_from(GuessRun::score)
         .row(
             Row::new(BY_CENTRE)
                 .paper(GuessRun::score, 0.18)

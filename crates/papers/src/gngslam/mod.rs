@@ -129,11 +129,8 @@ fn of_maps(name: &str, title: &str) -> Table {
     let best = Metric::greatest("best_score", MapRun::score).titled("best map");
     Table::of::<MapRun>(name, title)
         .metric(Metric::mean(MapRun::score))
-        .metric(best.decimals(3))
-        .metric(Metric::mean(MapRun::border_score))
-        .metric(Metric::percent("useless_percent", MapRun::useless))
-        .metric(Metric::percent("mirrored_percent", MapRun::mirrored))
-        .metric(Metric::mean(MapRun::nodes))
+        .metric(best)
+        .metrics_from(MapRun::border_score)
 }
 
 fn paper() -> Table {

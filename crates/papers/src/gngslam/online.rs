@@ -1,8 +1,6 @@
 //! The system that corrects its pose while it learns, as sections 5 and 6 of the paper ask for.
 
-use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
-use std::sync::{Mutex, PoisonError};
 
 use tolman_arena::gngslam::{Pitch, PointScore};
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
@@ -15,6 +13,7 @@ use tolman_systems::gngslam::{OnlineSlam, OnlineSlamConfig};
 
 use super::looks::{LookedFrom, OnlineRun};
 use super::{ASKED, RANDOM, guesses};
+use crate::kept::Kept;
 
 /// Names of the tables.
 const ONLINE: &str = "online";
@@ -64,10 +63,10 @@ record! {
         tried_error_m: Option<f64> => lower("error on a run not learned from").unit("m").decimals(3),
         /// Number of that run's looks until it knew its place; no value if it never did.
         looks_to_localize: Option<u32> => lower("looks until localized"),
-        /// Root-mean-square error of the position over the last tenth of a run.
-        position_error_m: Option<f64> => lower("error, last tenth").unit("m").decimals(3),
         /// Error over the second tenth of the way, m.
         second_tenth_error_m: Option<f64> => lower("error, second tenth").unit("m").decimals(3),
+        /// Root-mean-square error of the position over the last tenth of a run.
+        position_error_m: Option<f64> => lower("error, last tenth").unit("m").decimals(3),
         /// Error over each tenth of the way, m.
         errors_m: Vec<f64> => neither("errors").unit("m"),
         /// Distance rolled at the end of each tenth, m.
@@ -81,10 +80,7 @@ record! {
 
 /// The long runs, which two rows share.
 #[derive(Debug, Default)]
-pub(super) struct LongRuns(Mutex<BTreeMap<u32, Shared>>);
-
-/// A run that the first caller makes while the others wait.
-type Shared = Arc<Mutex<Option<Arc<OnlineRun>>>>;
+pub(super) struct LongRuns(Kept<u32, OnlineRun>);
 
 /// Returns the tables.
 pub(super) fn tables(options: &Options) -> Vec<Table> {
@@ -104,12 +100,12 @@ pub(super) fn tables(options: &Options) -> Vec<Table> {
             .note(long),
         learned(OTHERS, "The same in other arenas").rows(OTHER_ARENAS.map(row)),
         learned(BY_SEED, "The same in arenas drawn at random")
-            .metric(Metric::median("score_median", OnlineFields::score).decimals(3))
-            .metric(Metric::least("score_least", OnlineFields::score).decimals(3))
+            .metric(Metric::median("score_median", OnlineFields::score))
+            .metric(Metric::least("score_least", OnlineFields::score))
             .rows([row(BETTER), row(RANDOM)])
             .note("Each run is in an arena of its own: 3 to 6.5 m a side, goals of any colours anywhere, windows, furniture, light."),
         learned(WHEELS, "The same on a robot that is badly calibrated")
-            .metric(Metric::least("score_least", OnlineFields::score).decimals(3))
+            .metric(Metric::least("score_least", OnlineFields::score))
             .rows([TAKEN_FOR_GOOD, KNOWN_TO_BE_BAD].map(|name| row(name).runs(badly)))
             .note("Run n is in the random arena 101 + n. The system expects wheels that are wrong by 3 %, as in the other tables, or by 10 %."),
     ]
@@ -117,14 +113,7 @@ pub(super) fn tables(options: &Options) -> Vec<Table> {
 
 /// Returns a table without rows.
 fn learned(name: &str, title: &str) -> Table {
-    Table::of::<OnlineFields>(name, title)
-        .metric(Metric::mean(OnlineFields::score))
-        .metric(Metric::mean(OnlineFields::tried_error_m))
-        .metric(Metric::mean(OnlineFields::looks_to_localize))
-        .metric(Metric::mean(OnlineFields::second_tenth_error_m))
-        .metric(Metric::mean(OnlineFields::position_error_m))
-        .metric(Metric::mean(OnlineFields::places))
-        .metric(Metric::mean(OnlineFields::bumps))
+    Table::of::<OnlineFields>(name, title).metrics_from(OnlineFields::score)
 }
 
 /// Returns whether a table belongs here.
@@ -143,17 +132,20 @@ pub(super) fn run(long: &LongRuns, job: &Job<'_>) -> Result<Fields, BoxError> {
         (_, RANDOM) => guessed(job.seed),
         (ONLINE, RAW) => trajectory(&*long.run(job)?, |look| look.reckoned.position),
         (ONLINE, CORRECTED) => trajectory(&*long.run(job)?, |look| look.corrected.position),
-        (WHEELS, row) => {
+        (table, row) => {
+            let pitch = match table {
+                ONLINE => Pitch::named("pitch")?,
+                BY_SEED => Pitch::random(job.seed)?,
+                WHEELS => Pitch::random(FIRST_BAD + u64::from(job.run))?,
+                _ => Pitch::named(row)?,
+            };
+            let calibration = if table == WHEELS { BADLY } else { CALIBRATION };
             let mut config = OnlineSlamConfig::pioneer_2dx();
             if row == KNOWN_TO_BE_BAD {
                 config.map = config.map.for_wheels(BADLY, TRACK);
             }
-            let pitch = Pitch::random(FIRST_BAD + u64::from(job.run))?;
-            tried_with(&pitch, config, BADLY, job.seed)?
+            tried(&pitch, config, calibration, job.seed)?
         }
-        (ONLINE, _) => tried(&Pitch::named("pitch")?, job.seed)?,
-        (BY_SEED, _) => tried(&Pitch::random(job.seed)?, job.seed)?,
-        (_, arena) => tried(&Pitch::named(arena)?, job.seed)?,
     };
     Ok(fields.fields()?)
 }
@@ -167,14 +159,9 @@ fn guessed(seed: u64) -> OnlineFields {
     }
 }
 
-/// Learns an arena, and tries the map with another robot.
-fn tried(pitch: &Pitch, seed: u64) -> Result<OnlineFields, BoxError> {
-    tried_with(pitch, OnlineSlamConfig::pioneer_2dx(), CALIBRATION, seed)
-}
-
-/// Returns the result of [`tried`] with other settings and wheels that are off by up to
+/// Learns an arena, and tries the map with another robot. The wheels of both are off by up to
 /// `calibration`.
-fn tried_with(
+fn tried(
     pitch: &Pitch,
     config: OnlineSlamConfig,
     calibration: f64,
@@ -247,20 +234,11 @@ fn error(looks: &[LookedFrom], position: impl Fn(&LookedFrom) -> Point) -> f64 {
 impl LongRuns {
     /// Returns the long run with a job's number. Each is made once.
     fn run(&self, job: &Job<'_>) -> Result<Arc<OnlineRun>, BoxError> {
-        let shared = {
-            let mut started = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-            Arc::clone(started.entry(job.run).or_default())
-        };
-        let mut made = shared.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(run) = &*made {
-            return Ok(Arc::clone(run));
-        }
-        let pitch = Pitch::named("pitch")?;
-        let config = OnlineSlamConfig::pioneer_2dx();
-        let looks = LONGER * LEARNED;
-        let run = Arc::new(learn(&pitch, config, CALIBRATION, job.seed, looks)?);
-        *made = Some(Arc::clone(&run));
-        Ok(run)
+        self.0.get(job.run, || {
+            let pitch = Pitch::named("pitch")?;
+            let config = OnlineSlamConfig::pioneer_2dx();
+            learn(&pitch, config, CALIBRATION, job.seed, LONGER * LEARNED)
+        })
     }
 }
 

@@ -5,6 +5,7 @@ use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
 use super::search_space::TABLE_3_1;
 use super::searches::{MAPS, Searches};
 use super::sets::SETS;
+use crate::rows::row_of;
 
 /// Name of the table.
 pub(super) const NAME: &str = "3.1";
@@ -45,10 +46,8 @@ pub(super) const fn search_of(job: &Job<'_>) -> (usize, u32) {
 
 /// Returns the value of a row's parameter at the end of a search.
 pub(super) fn run(searches: &Searches, job: &Job<'_>) -> Result<Fields, BoxError> {
-    let row = TABLE_3_1
-        .iter()
-        .position(|parameter| parameter.name == job.row);
-    let row = row.ok_or_else(|| format!("there is no row {:?}", job.row))?;
+    let rows = TABLE_3_1.iter().enumerate();
+    let (row, _) = row_of(job, rows, |(_, parameter)| parameter.name == job.row)?;
     let (set, search) = search_of(job);
     let last = searches.map(set, search * MAPS + MAPS - 1)?;
     let counts = SETS[set].with_sonar || job.row != "w_sonar";

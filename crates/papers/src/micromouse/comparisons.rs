@@ -4,10 +4,11 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_maze::{Cell, Maze};
-use tolman_planners::{Found, Graph, a_star, best_first, path_to};
+use tolman_planners::{Arcs, Found, a_star, best_first, path_to};
 
 use super::paper::PaperTable;
 use super::{Fields, Job, Metric, Row, Table};
+use crate::rows::row_of;
 use tolman_arena::micromouse::{CellTask, MAX_STEPS};
 use tolman_experiment::{BoxError, Record, record, require};
 use tolman_systems::baselines::q_learning::{QLearner, QLearningConfig};
@@ -95,23 +96,16 @@ fn mazes(paper: &[PaperTable]) -> Vec<(&'static str, &Maze)> {
         .collect()
 }
 
-/// The cells of a maze as nodes, by [`tolman_maze::Grid::index`].
-struct Cells<'a>(&'a Maze);
-
-impl Graph for Cells<'_> {
-    fn node_count(&self) -> usize {
-        self.0.grid().cell_count()
-    }
-
-    fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
-        let grid = self.0.grid();
-        let Some(cell) = grid.cells().nth(node as usize) else {
-            return;
-        };
-        for (_, beside) in self.0.neighbours(cell) {
-            visit(grid.index(beside) as u32, 1);
-        }
-    }
+/// Returns the steps from cell to cell, with cells as nodes by [`tolman_maze::Grid::index`].
+fn steps(maze: &Maze) -> Arcs {
+    let grid = maze.grid();
+    let node = |cell| grid.index(cell) as u32;
+    let from = |cell| {
+        let beside = maze.neighbours(cell).map(|(_, beside)| beside);
+        beside.map(move |beside| (node(cell), node(beside), 1))
+    };
+    let arcs: Vec<_> = grid.cells().flat_map(from).collect();
+    Arcs::new(grid.cell_count(), &arcs)
 }
 
 /// Plays a run: searches one maze.
@@ -132,7 +126,7 @@ pub(super) fn plan(paper: &[PaperTable], job: &Job<'_>) -> Result<Fields, BoxErr
         let distance = |goal: &Cell| u32::from(goal.x.abs_diff(cell.x) + goal.y.abs_diff(cell.y));
         maze.goals().iter().map(distance).min().unwrap_or(0)
     };
-    let cells = Cells(maze);
+    let cells = steps(maze);
     let counted = |Found { cost, expanded, .. }: Found| (cost, Some(expanded));
     let found = match job.row {
         "breadth-first" => {
@@ -153,9 +147,7 @@ pub(super) fn plan(paper: &[PaperTable], job: &Job<'_>) -> Result<Fields, BoxErr
 
 /// Plays a run: learns one maze.
 pub(super) fn learn(paper: &[PaperTable], job: &Job<'_>) -> Result<Fields, BoxError> {
-    let mut mazes = mazes(paper).into_iter();
-    let found = mazes.find(|(name, _)| *name == job.row);
-    let (_, maze) = found.ok_or("there is no such maze")?;
+    let (_, maze) = row_of(job, mazes(paper), |(name, _)| *name == job.row)?;
     let (start, _) = maze.start().ok_or("the maze has no start")?;
     let shortest = maze.steps_to_goal()[maze.grid().index(start)];
     let mut rng = ChaCha8Rng::seed_from_u64(job.seed);

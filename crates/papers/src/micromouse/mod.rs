@@ -20,6 +20,7 @@ use serde::Serialize;
 use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig, WorthConfig};
 
 use crate::data;
+use crate::metrics::UsualMetrics as _;
 use crate::tolerances::{MOUSE_SCORE, MOVES};
 use tolman_arena::micromouse::{Judgement, MAX_STEPS, floor, try_on};
 use tolman_draw::Figure;
@@ -124,9 +125,7 @@ fn all_mazes(paper: &[PaperTable], sets: &[MazeSet]) -> BTreeMap<String, String>
 
 fn sets_table(name: &str, title: &str, sets: &[MazeSet]) -> Table {
     Table::of::<SetRun>(name, title)
-        .metric(Metric::mean(SetRun::score))
-        .metric(Metric::percent("certified_percent", MouseRun::certified))
-        .metric(Metric::percent("finished_percent", MouseRun::finished))
+        .metrics([SetRun::score, MouseRun::certified, MouseRun::finished])
         .rows(sets.iter().filter(|set| set.name != HALF_SIZE).map(MazeSet::row))
         .note(format!(
             "One run a maze. The floor is the score of a mouse that knows the maze, and is subtracted. A mouse that \

@@ -4,6 +4,7 @@
 use tolman_maze::{Braided, Maze};
 
 use super::check_score;
+use crate::rows::row_of;
 use tolman_arena::micromouse::ScoreSheet;
 use tolman_arena::micromouse::noisy::{self, MouseSize, NoisyConfig};
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
@@ -142,9 +143,7 @@ fn maze(seed: u64, side: u16) -> Result<Maze, BoxError> {
 
 /// Plays a run in one maze.
 pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
-    let mouse = mice()
-        .find(|mouse| mouse.row == job.row)
-        .ok_or("there is no such row")?;
+    let mouse = row_of(job, mice(), |mouse| mouse.row == job.row)?;
     let trial = noisy::send(&maze(job.seed, mouse.side)?, &mouse.config, job.seed)?;
     let ScoreSheet { run_1, run_2 } = trial.verdict;
     let run = NoiseRun {

@@ -5,6 +5,7 @@ use std::path::Path;
 use tolman_maze::Maze;
 
 use super::{Metric, MouseRun, PaperRun, Row, Table};
+use crate::metrics::UsualMetrics as _;
 use crate::{data, maze_file};
 use tolman_experiment::BoxError;
 use tolman_systems::micromouse::Searcher;
@@ -21,35 +22,31 @@ pub(super) struct PaperTable {
 
 #[derive(Debug)]
 struct PaperRow {
-    name: &'static str,
-    searcher: Searcher,
+    line: Line,
     maze: Option<Maze>,
-    /// Path of the row's maze below the folder of external data.
-    file: &'static str,
-    /// Move length and average score in the paper.
-    paper: Option<(f64, f64)>,
 }
 
 impl PaperRow {
     fn row(&self) -> Row {
-        let mut row = Row::new(self.name);
-        if let Some((moves, score)) = self.paper {
+        let (name, searcher, file, paper) = self.line;
+        let mut row = Row::new(name);
+        if let Some((moves, score)) = paper {
             row = row
                 .paper(MouseRun::move_length, moves)
                 .paper("average_score", score);
         }
         if self.maze.is_none() {
-            let file = self.file;
             return row.missing(format!("{file} is not here: {}", data::MAZES));
         }
-        if self.searcher.is_deterministic() {
+        if searcher.is_deterministic() {
             return row.run_each(1);
         }
         row
     }
 }
 
-/// A row: its name, the search, the file and the paper's values.
+/// A row: its name, the search, the path of its maze below the folder of external data, and move
+/// length and average score in the paper.
 type Line = (&'static str, Searcher, &'static str, Option<(f64, f64)>);
 
 const COUNTER_50: &str = "counter_search (at least 50%)";
@@ -122,17 +119,13 @@ pub(super) fn tables(folder: Option<&Path>) -> Result<Vec<PaperTable>, BoxError>
     let mut tables = Vec::new();
     for (name, title, note, lines) in TABLES {
         let mut rows = Vec::new();
-        for (row, searcher, file, paper) in lines.iter().copied() {
+        for line in lines.iter().copied() {
+            let (_, _, file, _) = line;
             let path = folder.map(|folder| folder.join("mazes").join(file));
             let path = path.filter(|path| path.exists());
             let read = |path| maze_file::read(path).map(|file| file.maze);
-            rows.push(PaperRow {
-                name: row,
-                searcher,
-                maze: path.as_deref().map(read).transpose()?,
-                file,
-                paper,
-            });
+            let maze = path.as_deref().map(read).transpose()?;
+            rows.push(PaperRow { line, maze });
         }
         tables.push(PaperTable {
             name,
@@ -150,21 +143,20 @@ impl PaperTable {
         Table::of::<PaperRun>(self.name, self.title)
             .metric(Metric::mean(MouseRun::move_length))
             .metric(average_score.titled("average score"))
-            .metric(Metric::percent("finished_percent", MouseRun::finished))
-            .metric(Metric::percent("certified_percent", MouseRun::certified))
+            .metrics([MouseRun::finished, MouseRun::certified])
             .rows(self.rows.iter().map(PaperRow::row))
             .paper_runs(5)
             .note(self.note)
     }
 
     pub(super) fn row(&self, name: &str) -> Option<(Searcher, &Maze)> {
-        let row = self.rows.iter().find(|row| row.name == name)?;
-        Some((row.searcher, row.maze.as_ref()?))
+        let row = self.rows.iter().find(|row| row.line.0 == name)?;
+        Some((row.line.1, row.maze.as_ref()?))
     }
 
     pub(super) fn mazes(&self) -> impl Iterator<Item = (&str, &Maze)> {
         self.rows
             .iter()
-            .filter_map(|row| Some((row.name, row.maze.as_ref()?)))
+            .filter_map(|row| Some((row.line.0, row.maze.as_ref()?)))
     }
 }

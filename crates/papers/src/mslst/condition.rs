@@ -27,44 +27,21 @@ pub(super) enum Condition {
 }
 
 impl Condition {
-    pub(super) const ALL: [Self; 12] = [
-        Self::AsJudged,
-        Self::NoNoise,
-        Self::Encoders,
-        Self::WithoutEncoders,
-        Self::Compass,
-        Self::CompassOff,
-        Self::BeamAside,
-        Self::BeamAhead,
-        Self::DropOuts,
-        Self::Motors,
-        Self::Lifted,
-        Self::DoorShut,
+    /// The conditions with the names of their rows.
+    pub(super) const ALL: [(Self, &str); 12] = [
+        (Self::AsJudged, "as judged"),
+        (Self::NoNoise, "sensors without noise"),
+        (Self::Encoders, "encoders 10 %"),
+        (Self::WithoutEncoders, "without encoders"),
+        (Self::Compass, "compass ± 3°"),
+        (Self::CompassOff, "compass off by 10°"),
+        (Self::BeamAside, "a stuck beam aside"),
+        (Self::BeamAhead, "a stuck beam ahead"),
+        (Self::DropOuts, "10 % drop-outs"),
+        (Self::Motors, "doubled motor noise"),
+        (Self::Lifted, "kidnapped"),
+        (Self::DoorShut, "a door shut"),
     ];
-
-    /// Returns the name of its row.
-    pub(super) const fn name(self) -> &'static str {
-        match self {
-            Self::AsJudged => "as judged",
-            Self::NoNoise => "sensors without noise",
-            Self::Encoders => "encoders 10 %",
-            Self::WithoutEncoders => "without encoders",
-            Self::Compass => "compass ± 3°",
-            Self::CompassOff => "compass off by 10°",
-            Self::BeamAside => "a stuck beam aside",
-            Self::BeamAhead => "a stuck beam ahead",
-            Self::DropOuts => "10 % drop-outs",
-            Self::Motors => "doubled motor noise",
-            Self::Lifted => "kidnapped",
-            Self::DoorShut => "a door shut",
-        }
-    }
-
-    pub(super) fn named(name: &str) -> Option<Self> {
-        Self::ALL
-            .into_iter()
-            .find(|condition| condition.name() == name)
-    }
 
     /// Returns the robot: with the noise that the better system is judged with, and with this
     /// condition's errors.

@@ -9,7 +9,9 @@ use tolman_maze::Direction;
 
 use super::MAPS;
 use super::entrant::{Entrant, LearnerConfig, Ready};
-use crate::tolerances::{SUCCESS, TIME};
+use super::families::over;
+use crate::kept::once;
+use crate::rows::row_of;
 use crate::venue::{self, MazeRun, Venue, World};
 use tolman_arena::Mind;
 use tolman_arena::cast::Agent;
@@ -67,9 +69,9 @@ pub(super) struct Contest {
 pub(super) struct Competitor {
     pub(super) row: String,
     entrant: Entrant,
-    /// Seed of each map, the same for every learner; a single one for a brain that learns none.
-    seeds: Vec<u64>,
-    ready: Vec<OnceLock<Ready>>,
+    /// Maps, each with its seed, which is the same for every learner; a single one for a brain that
+    /// learns none.
+    ready: Vec<(u64, OnceLock<Ready>)>,
 }
 
 /// Number of runs of each of the paper's rows.
@@ -107,9 +109,7 @@ impl Contest {
             _ => vec![MslstConfig::large(50.0)],
         };
         let stream = format!("maps of {}", venue.table);
-        let seeds: Vec<u64> = (0..maps)
-            .map(|map| run_seed(master_seed, &stream, map))
-            .collect();
+        let map = |number| (run_seed(master_seed, &stream, number), OnceLock::new());
         let learners = configs.into_iter().map(Entrant::Mslst);
         let learners = learners.chain([Entrant::Better]);
         let competitor = |entrant: Entrant| {
@@ -117,8 +117,7 @@ impl Contest {
             Competitor {
                 row: entrant.row(),
                 entrant,
-                seeds: seeds.iter().take(count as usize).copied().collect(),
-                ready: (0..count).map(|_| OnceLock::new()).collect(),
+                ready: (0..count).map(map).collect(),
             }
         };
         Self {
@@ -172,15 +171,8 @@ impl Contest {
 
     /// Returns the table with its metrics, without rows.
     fn measured(&self) -> Table {
-        let over = |name, agent: Agent| {
-            let title = format!("steps / {}'s", agent.name());
-            Metric::multiple(name, MazeRun::steps, agent.name()).titled(title)
-        };
         self.venue
             .table::<ContestRun>()
-            .metric(Metric::percent("success_percent", MazeRun::reached).tolerance(SUCCESS))
-            .metric(Metric::mean(MazeRun::actions).tolerance(TIME))
-            .metric(Metric::mean(MazeRun::steps).tolerance(TIME))
             .metric(Metric::mean(MazeRun::steps_arrived))
             .metric(over("steps_over_oracle", Agent::Oracle))
             .metric(over(
@@ -224,15 +216,13 @@ impl Contest {
         competitors.filter(|one| one.entrant.learns())
     }
 
-    fn competitor(&self, row: &str) -> Result<&Competitor, BoxError> {
-        let mut competitors = self.competitors.iter();
-        let competitor = competitors.find(|one| one.row == row);
-        competitor.ok_or_else(|| format!("there is no brain {row:?}").into())
+    fn competitor(&self, job: &Job<'_>) -> Result<&Competitor, BoxError> {
+        row_of(job, &self.competitors, |one| one.row == job.row)
     }
 
     /// Returns the name of the map that a learner's run uses; `None` for those that learn none.
     pub(super) fn map_of(&self, job: &Job<'_>) -> Option<String> {
-        let competitor = self.competitor(job.row).ok()?;
+        let competitor = self.competitor(job).ok()?;
         let map = job.run % self.maps;
         let name = || format!("map {map} of {} in {}", job.row, job.table);
         competitor.entrant.learns().then(name)
@@ -240,7 +230,7 @@ impl Contest {
 
     /// Plays one run.
     pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
-        let learns = self.competitor(job.row)?.entrant.learns();
+        let learns = self.competitor(job)?.entrant.learns();
         let (episode, bounces) = self.episode(job)?;
         let run = ContestRun {
             run: MazeRun::of(&episode),
@@ -252,7 +242,7 @@ impl Contest {
 
     /// Returns the trial of a run, its mind, and the state that the competitor has learned.
     fn cast(&self, job: &Job<'_>) -> Result<(Trial<'_>, Mind, &Ready), BoxError> {
-        let competitor = self.competitor(job.row)?;
+        let competitor = self.competitor(job)?;
         let ready = competitor.ready(&self.venue, job.run)?;
         let trial = Trial {
             robot: competitor.entrant.robot(&self.venue),
@@ -283,15 +273,8 @@ impl Contest {
 impl Competitor {
     /// Returns the competitor ready for this run. The first caller makes it learn.
     pub(super) fn ready(&self, venue: &Venue, run: u32) -> Result<&Ready, BoxError> {
-        let number = run as usize % self.ready.len();
-        let cell = &self.ready[number];
-        if let Some(ready) = cell.get() {
-            return Ok(ready);
-        }
-        let seed = self.seeds[number];
-        let ready = self.entrant.ready(venue, seed)?;
-        // If two threads learn it at once, they learn the same.
-        Ok(cell.get_or_init(|| ready))
+        let (seed, ready) = &self.ready[run as usize % self.ready.len()];
+        once(ready, || self.entrant.ready(venue, *seed))
     }
 
     /// Returns map 0 of MSLST; `None` for brains that learn none.

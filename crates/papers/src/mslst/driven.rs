@@ -3,7 +3,7 @@
 
 use alloc::sync::Arc;
 
-use crate::venue::Venue;
+use crate::venue::{Played, Venue};
 use tolman_arena::Mind;
 use tolman_arena::cast::Agent;
 use tolman_arena::episode::{self, Episode, Lifted, Trial};
@@ -15,7 +15,7 @@ record! {
     /// A world and some starts in it.
     pub(super) struct DrivenRun {
         /// Share of starts from which the destination is reached within the time limit.
-        success_percent: f64 => higher("success").unit("%").percent(),
+        success_percent: f64 => higher("success").percent().decimals(1),
         /// Mean number of time steps. A run that does not arrive counts as its limit.
         steps: f64 => lower("steps").at_least(0),
         /// Mean number of time steps of the Unlocalized oracle from the same starts. Its robot has
@@ -34,10 +34,10 @@ impl DrivenRun {
         );
         let least = Metric::least("least_success_percent", Self::success_percent);
         Table::of::<Self>(name, title)
-            .metric(Metric::mean(Self::success_percent).decimals(1))
+            .metric(Metric::mean(Self::success_percent))
             .metric(Metric::mean(Self::steps))
-            .metric(over.titled("steps / Unlocalized oracle's").decimals(2))
-            .metric(least.titled("lowest success").decimals(1))
+            .metric(over.titled("steps / Unlocalized oracle's"))
+            .metric(least.titled("lowest success"))
     }
 }
 
@@ -69,7 +69,7 @@ impl Driver<'_> {
         lifted: impl Fn(u32) -> Option<Lifted>,
         mut watch: impl FnMut(&Episode, &Episode),
     ) -> Result<DrivenRun, BoxError> {
-        let (mut reached, mut steps, mut oracle_steps) = (0_u32, 0_u64, 0_u64);
+        let (mut driven, mut by_oracles) = (Played::default(), Played::default());
         for start in 0..self.starts {
             let undisturbed = self.venue.trial(run_seed(self.seed, "starts", start));
             let mut oracle = self.venue.mind(Agent::UnlocalizedOracle)?;
@@ -81,16 +81,14 @@ impl Driver<'_> {
             let brain = BetterNavigator::new(Arc::clone(self.map));
             let mut mind = Mind::Rolling(Box::new(brain));
             let episode = episode::run_lifted(&trial, &mut mind, lifted(start), |_| {})?;
-            reached += u32::from(episode.reached);
-            steps += u64::from(episode.steps);
-            oracle_steps += u64::from(by_oracle.steps);
+            driven.add(&episode);
+            by_oracles.add(&by_oracle);
             watch(&episode, &by_oracle);
         }
-        let mean = |sum: u64| sum as f64 / f64::from(self.starts);
         Ok(DrivenRun {
-            success_percent: 100.0 * mean(reached.into()),
-            steps: mean(steps),
-            oracle_steps: mean(oracle_steps),
+            success_percent: driven.success_percent(),
+            steps: driven.steps(),
+            oracle_steps: by_oracles.steps(),
         })
     }
 }

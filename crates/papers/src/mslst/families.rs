@@ -13,7 +13,9 @@ use serde::Serialize;
 use tolman_maze::{Braided, Perfect};
 
 use super::entrant::{Entrant, LearnerConfig};
-use crate::venue::{Drawing, LARGE_DRAWINGS, Venue};
+use crate::metrics::UsualMetrics as _;
+use crate::rows::row_of;
+use crate::venue::{Drawing, LARGE_DRAWINGS, Played, Venue};
 use tolman_arena::cast::Agent;
 use tolman_arena::episode::{self, Trial};
 use tolman_arena::pioneer;
@@ -26,7 +28,7 @@ record! {
     /// A maze and several starts in it.
     pub(super) struct FamilyRun {
         /// Share of starts from which the destination is reached within the time limit.
-        success_percent: f64 => higher("success").unit("%").percent(),
+        success_percent: f64 => higher("success").percent(),
         /// Mean number of actions.
         actions: f64 => lower("actions").at_least(0),
         /// Mean number of time steps. A run that does not arrive counts as its limit.
@@ -162,8 +164,7 @@ impl Family {
         let steps = spread("steps", FamilyRun::steps, "");
         let table = Table::of::<FamilyRun>(self.name(), title)
             .metric(Metric::mean(FamilyRun::success_percent).decimals(1))
-            .metric(Metric::mean(FamilyRun::steps))
-            .metric(Metric::mean(FamilyRun::steps_arrived))
+            .metrics([FamilyRun::steps, FamilyRun::steps_arrived])
             .metric(over("steps_over_oracle", Agent::Oracle))
             .metric(over(
                 "steps_over_unlocalized_oracle",
@@ -189,29 +190,21 @@ impl Family {
 
     /// Plays a maze from all its starts.
     pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
-        let mut entrants = self.entrants.iter();
-        let entrant = entrants.find(|entrant| entrant.row() == job.row);
-        let entrant = entrant.ok_or_else(|| format!("there is no brain {:?}", job.row))?;
+        let entrant = row_of(job, &self.entrants, |entrant| entrant.row() == job.row)?;
         let venue = self.venue_of(entrant, job)?;
         let ready = entrant.ready(&venue, job.seed)?;
-        let (mut reached, mut actions, mut steps, mut arrived) = (0_u32, 0_u64, 0_u64, 0_u64);
-        for start in 0..self.starts {
+        let played = Played::of(self.starts, |start| {
             let trial = Trial {
                 robot: entrant.robot(&venue),
                 ..venue.trial(run_seed(job.seed, "starts", start))
             };
-            let episode = episode::run(&trial, &mut ready.mind(&venue)?, |_| {})?;
-            reached += u32::from(episode.reached);
-            actions += u64::from(episode.actions);
-            steps += u64::from(episode.steps);
-            arrived += u64::from(if episode.reached { episode.steps } else { 0 });
-        }
-        let mean = |sum: u64, count: u32| sum as f64 / f64::from(count);
+            episode::run(&trial, &mut ready.mind(&venue)?, |_| {})
+        })?;
         let run = FamilyRun {
-            success_percent: 100.0 * mean(reached.into(), self.starts),
-            actions: mean(actions, self.starts),
-            steps: mean(steps, self.starts),
-            steps_arrived: (reached > 0).then(|| mean(arrived, reached)),
+            success_percent: played.success_percent(),
+            actions: played.actions(),
+            steps: played.steps(),
+            steps_arrived: played.steps_arrived(),
         };
         Ok(run.fields()?)
     }
@@ -286,7 +279,7 @@ fn spread(name: &str, field: &str, unit: &str) -> [Metric; 5] {
 }
 
 /// Returns the metric of steps as a multiple of a baseline's, a ratio of sums.
-fn over(name: &str, baseline: Agent) -> Metric {
+pub(super) fn over(name: &str, baseline: Agent) -> Metric {
     let title = format!("steps / {}'s", baseline.name());
     Metric::multiple(name, FamilyRun::steps, baseline.name()).titled(title)
 }

@@ -10,6 +10,7 @@ use tolman_geom::Point;
 use super::driven::{DrivenRun, Driver, shared_out};
 use super::entrant::{Entrant, LearnerConfig};
 use super::figures::WIDTH;
+use crate::rows::row_of;
 use crate::venue::{Venue, World};
 use tolman_arena::episode::Episode;
 use tolman_arena::family::{Family, FamilySize};
@@ -95,11 +96,7 @@ impl Hardest {
 
     /// Plays a run: learns a world and drives in it.
     pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
-        let world = self
-            .worlds
-            .iter()
-            .find(|world| world.course.name == job.row);
-        let world = world.ok_or_else(|| format!("there is no row {:?}", job.row))?;
+        let world = row_of(job, &self.worlds, |world| world.course.name == job.row)?;
         Ok(self.drive(world, job.seed, |_, _| {})?.fields()?)
     }
 

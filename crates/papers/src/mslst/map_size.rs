@@ -2,6 +2,8 @@
 //! growing.
 
 use super::families::random;
+use crate::metrics::UsualMetrics as _;
+use crate::rows::row_of;
 use tolman_arena::mslst::learn_better;
 use tolman_arena::pioneer::{ENCODER_SD, with_sensor_noise};
 use tolman_arena::run::TaskEnd;
@@ -19,9 +21,9 @@ record! {
         /// another.
         true_places: u32 => neither("true places").at_least(1),
         /// Number of places over that of true places.
-        nodes_over_true_places: f64 => neither("nodes / true places").at_least(0),
+        nodes_over_true_places: f64 => neither("nodes / true places").at_least(0).decimals(3),
         /// Share of cells in which an action ended.
-        covered_percent: f64 => higher("covered").unit("%").percent(),
+        covered_percent: f64 => higher("covered").percent().decimals(1),
         /// Number of actions until the robot had been everywhere, per robot unit of corridor.
         actions_per_unit: f64 => lower("actions / unit of corridor").at_least(0),
     }
@@ -46,12 +48,10 @@ pub(super) fn table(runs: u32) -> Table {
     let mazes = (runs / RUNS_A_MAZE).clamp(1, MOST_MAZES);
     let of_ratio = MapSizeRun::nodes_over_true_places;
     Table::of::<MapSizeRun>(MAP_SIZE, "How large a map grows, in random mazes of 10 to 20 cells a side")
-        .metric(Metric::mean(of_ratio).decimals(3))
-        .metric(Metric::greatest("most_nodes_over_true_places", of_ratio).titled("highest nodes / true places").decimals(3))
-        .metric(Metric::mean(MapSizeRun::nodes))
-        .metric(Metric::percent("finished_percent", MapSizeRun::finished))
-        .metric(Metric::mean(MapSizeRun::covered_percent).decimals(1))
-        .metric(Metric::mean(MapSizeRun::actions_per_unit).decimals(2))
+        .metric(Metric::mean(of_ratio))
+        .metric(Metric::greatest("most_nodes_over_true_places", of_ratio).titled("highest nodes / true places"))
+        .metrics([MapSizeRun::nodes, MapSizeRun::finished])
+        .metrics_from(MapSizeRun::covered_percent)
         .rows(ROWS.map(|(row, _)| Row::new(row).runs(mazes)))
         .note(format!(
             "{mazes} mazes. True places are the positions where actions ended, not counting those \
@@ -62,11 +62,10 @@ pub(super) fn table(runs: u32) -> Table {
 
 /// Plays a run: learns a maze.
 pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
-    let times = ROWS.iter().find(|(row, _)| *row == job.row);
-    let (_, times) = times.ok_or_else(|| format!("there is no row {:?}", job.row))?;
+    let (_, times) = row_of(job, ROWS, |(row, _)| *row == job.row)?;
     let venue = random(job)?;
     let robot = with_sensor_noise(&venue.robot, ENCODER_SD);
-    let learned = learn_better(&venue.course, &robot, *times, job.seed)?;
+    let learned = learn_better(&venue.course, &robot, times, job.seed)?;
     let (nodes, places) = (
         learned.positions.len() as u32,
         learned.true_places.len() as u32,

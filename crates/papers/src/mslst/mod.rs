@@ -20,7 +20,7 @@ mod states;
 use crate::venue::{self, Venue};
 use tolman_draw::Figure;
 use tolman_experiment::{
-    BoxError, Entry, Experiment, Fields, Job, Options, P_TABLE, Procedure, Run, Tour,
+    BoxError, Entry, Experiment, Fields, Job, Options, P_TABLE, Procedure, Run, Table, Tour,
 };
 use tolman_replay::Replay;
 
@@ -79,51 +79,34 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         let venues = venue::from_files(&options.mazes, &[P_TABLE])?;
         venues.into_iter().map(contest).collect()
     };
-    let mut tables = Vec::new();
-    let mut families = Vec::new();
-    if papers {
-        tables.push(states::table());
-        let runs = options.runs_of(&ENTRY);
-        families = vec![
-            Family::drawings(runs, options.limit),
-            Family::random(runs, options.limit),
-        ];
-    }
-    tables.extend(contests.iter().map(Contest::table));
-    tables.extend(families.iter().map(Family::table));
-    let runs = options.runs_of(&ENTRY);
-    let robustness = Robustness::new(runs, options.limit);
-    let hardest = papers
-        .then(|| Hardest::new(runs, options.limit))
-        .transpose()?;
-    if papers {
-        tables.push(map_size::table(runs));
-        tables.extend(robustness.tables());
-    }
-    tables.extend(hardest.as_ref().map(Hardest::table));
     let worlds = contests.iter();
     let worlds = worlds.map(|contest| (&*contest.venue.table, contest.config()));
     let mut config = venue::config(worlds)?;
-    for family in &families {
-        config.insert(
-            family.name().to_owned(),
-            toml::Value::try_from(family.config())?,
-        );
-    }
-    if papers {
-        let of_drawings = toml::Value::try_from(robustness.config())?;
-        config.insert(ROBUSTNESS.to_owned(), of_drawings);
-    }
-    if let Some(hardest) = &hardest {
-        let worlds = toml::Value::try_from(hardest.config())?;
-        config.insert(HARDEST.to_owned(), worlds);
-    }
-    let mslst = Mslst {
+    let mut tables: Vec<Table> = contests.iter().map(Contest::table).collect();
+    let (runs, limit) = (options.runs_of(&ENTRY), options.limit);
+    let mut mslst = Mslst {
         contests,
-        families,
-        robustness,
-        hardest,
+        families: Vec::new(),
+        robustness: Robustness::new(runs, limit),
+        hardest: None,
     };
+    if papers {
+        mslst.families = vec![Family::drawings(runs, limit), Family::random(runs, limit)];
+        let hardest = mslst.hardest.insert(Hardest::new(runs, limit)?);
+        tables.insert(0, states::table());
+        tables.extend(mslst.families.iter().map(Family::table));
+        tables.push(map_size::table(runs));
+        tables.extend(mslst.robustness.tables());
+        tables.push(hardest.table());
+        for family in &mslst.families {
+            let of_mazes = toml::Value::try_from(family.config())?;
+            config.insert(family.name().to_owned(), of_mazes);
+        }
+        let of_drawings = toml::Value::try_from(mslst.robustness.config())?;
+        config.insert(ROBUSTNESS.to_owned(), of_drawings);
+        let of_worlds = toml::Value::try_from(hardest.config())?;
+        config.insert(HARDEST.to_owned(), of_worlds);
+    }
     Ok(Experiment::new(ENTRY, tables, config, mslst))
 }
 

@@ -3,7 +3,6 @@
 //! A run is a drawing with several starts, so the spread is between mazes.
 
 use alloc::sync::Arc;
-use std::sync::OnceLock;
 
 use rand::RngExt;
 use serde::Serialize;
@@ -12,6 +11,8 @@ use tolman_maze::{Maze, MazeFile};
 use super::condition::Condition;
 use super::driven::{DrivenRun, Driver, shared_out};
 use super::entrant::{Entrant, LearnerConfig};
+use crate::kept::Kept;
+use crate::rows::row_of;
 use crate::venue::{self, Drawing, LARGE_DRAWINGS, Venue};
 use tolman_arena::course::Course;
 use tolman_arena::mslst::learn_better_without;
@@ -45,8 +46,8 @@ pub(super) struct Robustness {
     mazes: u32,
     starts: u32,
     limit: Option<u32>,
-    /// Venues by number of the drawing: as it was learned, and with a door shut.
-    venues: Vec<[OnceLock<Arc<Venue>>; 2]>,
+    /// Venues by number of the drawing, and whether a door is shut in it.
+    venues: Kept<(u32, bool), Venue>,
 }
 
 /// Configuration of the runs.
@@ -66,7 +67,7 @@ impl Robustness {
             mazes,
             starts,
             limit,
-            venues: (0..mazes).map(|_| Default::default()).collect(),
+            venues: Kept::default(),
         }
     }
 
@@ -80,7 +81,7 @@ impl Robustness {
 
     /// Returns its two tables.
     pub(super) fn tables(&self) -> [Table; 2] {
-        let conditions = Condition::ALL.map(Condition::name);
+        let conditions = Condition::ALL.map(|(_, name)| name);
         let parts = PARTS.map(|(name, _)| name);
         [
             self.table(
@@ -134,18 +135,14 @@ impl Robustness {
     /// Returns a drawing as it was learned, or with a door shut afterwards, with the plans made
     /// there.
     fn venue(&self, number: u32, door: DoorState) -> Result<Arc<Venue>, BoxError> {
-        let cell = &self.venues[number as usize][usize::from(door == DoorState::Shut)];
-        if let Some(venue) = cell.get() {
-            return Ok(Arc::clone(venue));
-        }
-        let drawing = LARGE_DRAWINGS[number as usize];
-        let venue = match door {
-            DoorState::Open => Drawing::Large.venue(drawing)?,
-            DoorState::Shut => with_a_door_shut(drawing)?,
-        };
-        let venue = Arc::new(venue.limited(self.limit));
-        // If two threads make it at once, they make the same.
-        Ok(Arc::clone(cell.get_or_init(|| venue)))
+        self.venues.get((number, door == DoorState::Shut), || {
+            let drawing = LARGE_DRAWINGS[number as usize];
+            let venue = match door {
+                DoorState::Open => Drawing::Large.venue(drawing)?,
+                DoorState::Shut => with_a_door_shut(drawing)?,
+            };
+            Ok(venue.limited(self.limit))
+        })
     }
 }
 
@@ -171,13 +168,10 @@ fn with_a_door_shut(drawing: u32) -> Result<Venue, BoxError> {
 
 /// Returns the condition of a row, and the part that it leaves out.
 fn row(job: &Job<'_>) -> Result<(Condition, Option<BetterPart>), BoxError> {
-    let found = match job.table {
-        ROBUSTNESS => Condition::named(job.row).map(|condition| (condition, None)),
-        _ => {
-            let mut parts = PARTS.into_iter();
-            let part = parts.find(|(name, _)| *name == job.row);
-            part.map(|(_, part)| (Condition::AsJudged, part))
-        }
-    };
-    found.ok_or_else(|| format!("there is no row {:?}", job.row).into())
+    if job.table == ROBUSTNESS {
+        let (condition, _) = row_of(job, Condition::ALL, |(_, name)| *name == job.row)?;
+        return Ok((condition, None));
+    }
+    let (_, part) = row_of(job, PARTS, |(name, _)| *name == job.row)?;
+    Ok((Condition::AsJudged, part))
 }

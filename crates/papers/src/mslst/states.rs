@@ -1,10 +1,11 @@
 //! Table 1: the number of states that Phase I learns.
 
 use super::contest::Contest;
+use crate::rows::row_of;
 use crate::tolerances::PROTOTYPES;
-use crate::venue::{StatesRow, TABLE_1, states_row};
+use crate::venue::{StatesRow, TABLE_1};
 use tolman_arena::mslst::scans;
-use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record};
+use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
 use tolman_systems::mslst::{MslstConfig, States};
 
 record! {
@@ -18,7 +19,7 @@ record! {
 pub(super) fn table() -> Table {
     let row = |row: StatesRow| Row::new(row.row).paper(StatesRun::states, row.states);
     Table::of::<StatesRun>("1", "The states of Phase I")
-        .metric(Metric::mean(StatesRun::states))
+        .metrics_from(StatesRun::states)
         .paper_runs(1)
         .rows(TABLE_1.map(row))
         .note(
@@ -29,10 +30,9 @@ pub(super) fn table() -> Table {
 
 /// Plays one run: Phase I.
 pub(super) fn run(job: &Job<'_>, contests: &[Contest]) -> Result<Fields, BoxError> {
-    let row = states_row(job.row)?;
-    let mut venues = contests.iter().map(|contest| &contest.venue);
-    let venue = venues.find(|venue| venue.course.name == row.maze);
-    let venue = venue.ok_or_else(|| format!("there is no maze {}", row.maze))?;
+    let row = row_of(job, TABLE_1, |row| row.row == job.row)?;
+    let venues = contests.iter().map(|contest| &contest.venue);
+    let venue = row_of(job, venues, |venue| venue.course.name == row.maze)?;
     let steps = MslstConfig::large(row.threshold).scan_steps;
     let scans = scans(&venue.course, &venue.robot, steps, job.seed)?;
     let states = States::learn(&scans, row.threshold)?;

@@ -8,7 +8,8 @@ use tolman_experiment::{
     record, require,
 };
 
-use crate::venue::{Condition, Drawing, Judged};
+use crate::rows::row_of;
+use crate::venue::{Condition, Drawing};
 
 /// Entry in the catalogue.
 pub(super) const ENTRY: Entry = Entry {
@@ -127,29 +128,33 @@ fn table(drawing: Drawing, judged: u32) -> Table {
 
 impl Procedure for Drawings {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
-        let mut drawings = DRAWINGS.into_iter();
-        let drawing = drawings.find(|drawing| drawing.name() == job.table);
-        let drawing = drawing.ok_or_else(|| format!("there is no maze {:?}", job.table))?;
-        let judged = drawing.judged(job.run)?;
-        let judged = judged.as_ref();
-        let misses = |condition| judged.is_some_and(|judged| judged.misses(condition));
-        let kept = judged.is_some_and(|judged| judged.summed_excess() <= 0.0);
+        let drawing = row_of(job, DRAWINGS, |drawing| drawing.name() == job.table)?;
+        let run = match drawing.judged(job.run)? {
+            None => DrawingRun {
+                misses_traps: true,
+                ..DrawingRun::default()
+            },
+            Some(judged) => DrawingRun {
+                kept: judged.summed_excess() <= 0.0,
+                misses_oracle_steps: judged.misses(Condition::OracleSteps),
+                misses_avoid_success: judged.misses(Condition::AvoidSuccess),
+                misses_avoid_steps: judged.misses(Condition::AvoidSteps),
+                misses_wall_follow_success: judged.misses(Condition::WallFollowSuccess),
+                misses_wall_follow_steps: judged.misses(Condition::WallFollowSteps),
+                excess: Some(judged.summed_excess()),
+                trapped_percent: Some(judged.trapped_percent),
+                avoid_success_percent: Some(judged.avoid.success_percent()),
+                avoid_steps: Some(judged.avoid.steps()),
+                wall_follow_success_percent: Some(judged.wall_follow.success_percent()),
+                wall_follow_steps: Some(judged.wall_follow.steps()),
+                oracle_steps: Some(judged.oracle.steps()),
+                ..DrawingRun::default()
+            },
+        };
+        let listed = drawing.listed(job.run);
         let run = DrawingRun {
-            kept,
-            misses_traps: judged.is_none(),
-            misses_oracle_steps: misses(Condition::OracleSteps),
-            misses_avoid_success: misses(Condition::AvoidSuccess),
-            misses_avoid_steps: misses(Condition::AvoidSteps),
-            misses_wall_follow_success: misses(Condition::WallFollowSuccess),
-            misses_wall_follow_steps: misses(Condition::WallFollowSteps),
-            as_listed: drawing.listed(job.run).map(|listed| listed == kept),
-            excess: judged.map(Judged::summed_excess),
-            trapped_percent: judged.map(|judged| judged.trapped_percent),
-            avoid_success_percent: judged.map(|judged| judged.avoid.success_percent),
-            avoid_steps: judged.map(|judged| judged.avoid.mean_steps),
-            wall_follow_success_percent: judged.map(|judged| judged.wall_follow.success_percent),
-            wall_follow_steps: judged.map(|judged| judged.wall_follow.mean_steps),
-            oracle_steps: judged.map(|judged| judged.oracle.mean_steps),
+            as_listed: listed.map(|listed| listed == run.kept),
+            ..run
         };
         Ok(run.fields()?)
     }

@@ -11,18 +11,19 @@ use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
 
 use tolman_arena::Mind;
-use tolman_arena::cast::{Agent, Cast};
-use tolman_arena::episode::{self, Episode, Trial};
+use tolman_arena::cast::Agent;
+use tolman_arena::episode::{self, EpisodeError};
 use tolman_arena::mslst::learn;
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Record, Row, Run, Table, record,
     run_seed,
 };
-use tolman_robot::Body;
 use tolman_systems::mslst::Navigator;
 
-use settings::{Setting, Sweep};
+use crate::rows::row_of;
+use crate::venue::Played;
+use settings::Sweep;
 
 /// Number of starts for each map.
 const STARTS: u32 = 10;
@@ -93,58 +94,31 @@ fn table(sweep: &Sweep) -> Table {
         ))
 }
 
-impl Sweeps {
-    fn setting(&self, table: &str, row: &str) -> Option<&Setting> {
-        let sweep = self.sweeps.iter().find(|sweep| sweep.name == table)?;
-        sweep.settings.iter().find(|setting| setting.row == row)
-    }
-}
-
 impl Procedure for Sweeps {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
-        let setting = self
-            .setting(job.table, job.row)
-            .ok_or_else(|| format!("there is no row {:?}", job.row))?;
-        let course = setting.world.course(job.seed)?;
-        let robot = &setting.robot;
-        let learned = learn(&course, robot, &setting.config, job.seed)?;
+        let sweeps = self.sweeps.iter().filter(|sweep| sweep.name == job.table);
+        let settings = sweeps.flat_map(|sweep| &sweep.settings);
+        let setting = row_of(job, settings, |setting| setting.row == job.row)?;
+        let venue = setting.venue(job.seed)?;
+        let learned = learn(&venue.course, &venue.robot, &setting.config, job.seed)?;
         let (states, nodes) = (learned.map.states.models().len(), learned.map.graph.len());
         let map = Arc::new(learned.map);
-        let cast = Cast::default();
-        let play = |mind: &mut Mind, start: u32| -> Result<Episode, BoxError> {
-            let seed = run_seed(job.seed, "starts", start);
-            let body = Body::Circle {
-                radius: robot.radius,
-            };
-            let trial = Trial {
-                course: &course,
-                robot: robot.clone(),
-                start: episode::random_start(&course, &body, seed),
-                step_limit: setting.world.step_limit(&course),
-                seed,
-            };
-            Ok(episode::run(&trial, mind, |_| {})?)
-        };
-        // Share of the starts from which a mind arrives, and its mean number of time steps.
-        let played = |mind: &dyn Fn() -> Result<Mind, BoxError>| -> Result<[f64; 2], BoxError> {
-            let (mut reached, mut steps) = (0_u32, 0_u32);
-            for start in 0..STARTS {
-                let episode = play(&mut mind()?, start)?;
-                reached += u32::from(episode.reached);
-                steps += episode.steps;
-            }
-            Ok([reached, steps].map(|sum| f64::from(sum) / f64::from(STARTS)))
+        let played = |mind: &dyn Fn() -> Result<Mind, EpisodeError>| {
+            Played::of(STARTS, |start| {
+                let trial = venue.trial(run_seed(job.seed, "starts", start));
+                episode::run(&trial, &mut mind()?, |_| {})
+            })
         };
         let mslst = || Navigator::new(Arc::clone(&map), &setting.config);
-        let [reached, steps] = played(&|| Ok(Mind::Brain(Box::new(mslst()))))?;
-        let other = |agent| played(&|| Ok(cast.mind(agent, &course, robot)?));
+        let by_mslst = played(&|| Ok(Mind::Brain(Box::new(mslst()))))?;
+        let other = |agent| played(&|| venue.mind(agent));
         let run = SweepRun {
             states,
             nodes,
-            success_percent: 100.0 * reached,
-            steps,
-            wall_follow_steps: other(Agent::WallFollow)?[1],
-            oracle_steps: other(Agent::Oracle)?[1],
+            success_percent: by_mslst.success_percent(),
+            steps: by_mslst.steps(),
+            wall_follow_steps: other(Agent::WallFollow)?.steps(),
+            oracle_steps: other(Agent::Oracle)?.steps(),
         };
         Ok(run.fields()?)
     }

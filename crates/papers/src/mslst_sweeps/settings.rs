@@ -48,11 +48,13 @@ pub(super) enum World {
 }
 
 impl World {
-    /// Returns the course of the run with this seed.
-    pub(super) fn course(&self, seed: u64) -> Result<Course, BoxError> {
+    /// Returns the world of the run with this seed.
+    fn venue(&self, seed: u64) -> Result<Venue, BoxError> {
         let rng = &mut ChaCha8Rng::seed_from_u64(seed);
         let maze = match *self {
-            Self::Fixed { ref course, .. } => return Ok((**course).clone()),
+            Self::Fixed { ref course, steps } => {
+                return Ok(Venue::new("", "", (**course).clone(), steps));
+            }
             Self::Perfect { side } => Perfect {
                 width: side,
                 height: side,
@@ -65,18 +67,7 @@ impl World {
             }
             .generate(rng)?,
         };
-        Ok(Course::for_body(
-            &self.name(),
-            &MazeFile::from(maze),
-            &pioneer::body(),
-        )?)
-    }
-
-    pub(super) fn step_limit(&self, course: &Course) -> u32 {
-        match self {
-            Self::Fixed { steps, .. } => *steps,
-            Self::Perfect { .. } | Self::Braided { .. } => course.step_limit(),
-        }
+        Venue::of_maze("", &self.name(), maze)
     }
 
     fn name(&self) -> String {
@@ -89,6 +80,13 @@ impl World {
 }
 
 impl Setting {
+    /// Returns the world of the run with this seed, with this robot.
+    pub(super) fn venue(&self, seed: u64) -> Result<Venue, BoxError> {
+        let mut venue = self.world.venue(seed)?;
+        venue.robot = self.robot.clone();
+        Ok(venue)
+    }
+
     /// Returns the configuration that its runs depend on.
     pub(super) fn config(&self) -> impl Serialize {
         #[derive(Serialize)]
@@ -115,13 +113,16 @@ impl Setting {
 /// Returns every sweep.
 pub(super) fn all() -> Result<Vec<Sweep>, BoxError> {
     let [j, large] = fixed()?;
-    let base = MslstConfig::large(50.0);
-    let at = |value: f64, config: MslstConfig| Setting {
-        row: format!("{value}"),
-        value,
-        config,
-        robot: pioneer::calibrated(),
-        world: large.clone(),
+    let at = |value: f64, change: &dyn Fn(&mut MslstConfig)| {
+        let mut config = MslstConfig::large(50.0);
+        change(&mut config);
+        Setting {
+            row: format!("{value}"),
+            value,
+            config,
+            robot: pioneer::calibrated(),
+            world: large.clone(),
+        }
     };
     let thresholds = [5.0, 10.0, 20.0, 35.0, 50.0, 75.0, 100.0, 200.0];
     let actions = [250, 500, 1000, 2000, 4000, 8000];
@@ -135,29 +136,13 @@ pub(super) fn all() -> Result<Vec<Sweep>, BoxError> {
         settings,
         note: "Large maze, threshold 50.",
     };
-    let threshold = |threshold| {
-        let mut config = base;
-        config.threshold = threshold;
-        at(threshold, config)
-    };
-    let graph = |graph_actions| {
-        let mut config = base;
-        config.graph_actions = graph_actions;
-        at(f64::from(graph_actions), config)
-    };
-    let scans = |scan_steps| {
-        let mut config = base;
-        config.scan_steps = scan_steps;
-        at(f64::from(scan_steps), config)
-    };
-    let memory = |memory| {
-        let mut config = base;
-        config.memory = memory;
-        at(f64::from(memory), config)
-    };
+    let threshold = |threshold| at(threshold, &|config| config.threshold = threshold);
+    let graph = |actions: u32| at(actions.into(), &|config| config.graph_actions = actions);
+    let scans = |steps: u32| at(steps.into(), &|config| config.scan_steps = steps);
+    let memory = |memory: u32| at(memory.into(), &|config| config.memory = memory);
     let noise = |times| Setting {
         robot: noisy(times),
-        ..at(times, base)
+        ..at(times, &|_| {})
     };
     Ok(vec![
         Sweep {

@@ -9,10 +9,9 @@ use super::any::ROWS;
 use super::shapes::ShapesRun;
 use super::states::Mazes;
 use super::{five, shapes, states};
-use crate::plan::model_scan;
+use crate::plan::{model_scan, network_graph};
 use tolman_draw::{
-    Axis, Chart, Drawing, Figure, GraphEdge, GraphNode, GraphPicture, Line, LinePoint, NodeMark,
-    Points, Series, Tiles,
+    Axis, Chart, Drawing, Figure, GraphNode, Line, LinePoint, NodeMark, Points, Series, Tiles,
 };
 use tolman_experiment::{BoxError, Record, Run};
 use tolman_stats::{ConfidenceInterval, quantile};
@@ -128,23 +127,13 @@ fn over_data(data: &[[f64; 2]], network: &Network<f64>) -> Drawing {
     let points = data.iter().step_by(every);
     let points = points.map(|point| Point::new(point[0], point[1]));
     chart.points(Points::new("", Series(DOTS), points.collect()));
-    let mut graph = GraphPicture::new().radius(2.6);
-    let mut nodes = BTreeMap::new();
-    for (id, cluster) in network.clusters().iter() {
-        let mut at = network.prototype(id).into_iter().flatten();
-        let position = Point::new(at.next().unwrap_or(f64::NAN), at.next().unwrap_or(f64::NAN));
-        let series = Series(cluster % DOTS);
-        let node = GraphNode::at(position).series(series).mark(NodeMark::Disc);
-        nodes.insert(id, (graph.node(node), series));
-    }
-    for edge in network.edges() {
-        if let (Some((from, series)), Some((to, _))) =
-            (nodes.get(&edge.ends.0), nodes.get(&edge.ends.1))
-        {
-            graph.edge(GraphEdge::between(*from, *to).series(*series));
-        }
-    }
-    chart.graph(graph);
+    let clusters = network.clusters();
+    let node = |id| {
+        let mut at = network.prototype(id).ok()?;
+        let node = GraphNode::at(Point::new(at.next()?, at.next()?)).mark(NodeMark::Disc);
+        Some(node.series(Series(clusters.label(id).ok()? % DOTS)))
+    };
+    chart.graph(network_graph(network, node).radius(2.6));
     chart.drawing(format!("{} units over their data.", network.len()))
 }
 

@@ -70,10 +70,10 @@ record! {
         right: bool => higher("each cluster in its region"),
         /// Number of clusters of the second layer.
         clusters: usize => neither("clusters").decimals(1),
-        /// Number of clusters of the first layer.
-        first_clusters: usize => neither("clusters, first layer").decimals(1),
         /// Number of units of the second layer.
         units: usize => neither("units").decimals(0),
+        /// Number of clusters of the first layer.
+        first_clusters: usize => neither("clusters, first layer").decimals(1),
         /// Number of units of the first layer.
         first_units: usize => neither("units, first layer").decimals(0),
     }
@@ -97,10 +97,7 @@ fn measured(name: &str, title: &str) -> Table {
     Table::of::<FiveRun>(name, title)
         .metric(Metric::count_of("five_of_twenty", FiveRun::five, 20))
         .metric(Metric::count_of("right_of_twenty", FiveRun::right, 20))
-        .metric(Metric::mean(FiveRun::clusters))
-        .metric(Metric::mean(FiveRun::units))
-        .metric(Metric::mean(FiveRun::first_clusters))
-        .metric(Metric::mean(FiveRun::first_units))
+        .metrics_from(FiveRun::clusters)
 }
 
 /// Networks of one run.

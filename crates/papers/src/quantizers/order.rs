@@ -1,11 +1,11 @@
 //! A robot's stream of scans is not shuffled: the effect of the order of inputs on GNG.
 
-use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tolman_quantizers::{Gng, GngConfig, Quantizer, ReplayConfig, ReplayQuantizer};
 
 use super::states::Mazes;
+use super::streams::shuffle;
 use tolman_arena::pioneer;
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
 
@@ -50,9 +50,7 @@ pub(super) fn run(mazes: &Mazes, job: &Job<'_>) -> Result<Fields, BoxError> {
     if job.row == SHUFFLED {
         let mut rng = ChaCha8Rng::seed_from_u64(job.seed);
         rng.set_stream(4);
-        for end in (1..order.len()).rev() {
-            order.swap(end, rng.random_range(0..=end as u32) as usize);
-        }
+        shuffle(&mut order, &mut rng);
     }
     let features = pioneer::ring().beams as usize;
     let stream = || {

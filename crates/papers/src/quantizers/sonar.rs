@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 
 use super::any::{ROWS, quantizer};
+use super::streams::shuffle;
 use crate::data;
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
 use tolman_formats::SonarTable;
@@ -69,9 +69,7 @@ impl Log {
         let mut order: Vec<usize> = (0..learnt.len()).collect();
         let mut quantizer = quantizer(job.row, SONARS, UNITS, THRESHOLD)?;
         for _ in 0..PASSES {
-            for end in (1..order.len()).rev() {
-                order.swap(end, rng.random_range(0..=end as u32) as usize);
-            }
+            shuffle(&mut order, &mut rng);
             for reading in &order {
                 quantizer.observe(&learnt[*reading].0)?;
             }

@@ -2,8 +2,9 @@
 
 use tolman_quantizers::{Gng, GngConfig, Quantizer};
 
+use crate::rows::row_of;
 use crate::tolerances::PROTOTYPES;
-use crate::venue::{self, StatesRow, TABLE_1, states_row};
+use crate::venue::{self, StatesRow, TABLE_1};
 use tolman_arena::course::Course;
 use tolman_arena::mslst;
 use tolman_arena::pioneer;
@@ -29,7 +30,7 @@ pub(super) fn table() -> Table {
     let row = |row: StatesRow| Row::new(row.row).paper("states_median", row.states);
     Table::of::<NetworkRun>(NAME, "States of MSLST's equilibrium GNG")
         .metric(Metric::median("states_median", NetworkRun::states).titled("states (median)"))
-        .metric(Metric::mean(NetworkRun::rms_error))
+        .metrics_from(NetworkRun::rms_error)
         .paper_runs(1)
         .rows(TABLE_1.map(row))
         .note(format!(
@@ -65,16 +66,10 @@ impl Mazes {
 
     /// Returns the network of a run of the table, and the scans it learned.
     pub(super) fn learn(&self, job: &Job<'_>) -> Result<(Gng<f64>, Vec<Vec<f64>>), BoxError> {
-        let row = states_row(job.row)?;
-        let mut courses = self.all().into_iter();
-        let course = courses.find(|course| course.name == row.maze);
-        let course = course.ok_or_else(|| format!("there is no maze {}", row.maze))?;
+        let row = row_of(job, TABLE_1, |row| row.row == job.row)?;
+        let course = row_of(job, self.all(), |course| course.name == row.maze)?;
         let scans = scans(course, job.seed)?;
-        let beams = pioneer::ring().beams as usize;
-        let mut gng = Gng::new(beams, GngConfig::mslst(row.threshold))?;
-        for scan in &scans {
-            gng.observe(scan)?;
-        }
+        let gng = learned(&scans, GngConfig::mslst(row.threshold))?;
         Ok((gng, scans))
     }
 
@@ -138,11 +133,16 @@ impl Mazes {
 fn states(scans: &[Vec<f64>], threshold: f64, decay: f64) -> Result<usize, BoxError> {
     let mut config = GngConfig::mslst(threshold);
     config.decay = decay;
+    Ok(learned(scans, config)?.network().len())
+}
+
+/// Returns the network that is learned from scans.
+fn learned(scans: &[Vec<f64>], config: GngConfig) -> Result<Gng<f64>, BoxError> {
     let mut gng = Gng::new(pioneer::ring().beams as usize, config)?;
     for scan in scans {
         gng.observe(scan)?;
     }
-    Ok(gng.network().len())
+    Ok(gng)
 }
 
 /// Returns the scans of phase I.

@@ -104,6 +104,13 @@ pub(super) fn rings_and_squares(rng: &mut ChaCha8Rng) -> Point {
     }
 }
 
+/// Brings inputs into a random order.
+pub(super) fn shuffle(order: &mut [usize], rng: &mut ChaCha8Rng) {
+    for end in (1..order.len()).rev() {
+        order.swap(end, rng.random_range(0..=end as u32) as usize);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use rand_chacha::rand_core::SeedableRng;

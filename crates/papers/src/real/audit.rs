@@ -19,6 +19,7 @@ use super::GraphFile;
 use super::false_closures::{Kind, Spoiler};
 use super::gnc::Gnc;
 use crate::data;
+use crate::rows::row_of;
 
 /// Name of the table.
 pub(super) const NAME: &str = "audit";
@@ -56,13 +57,13 @@ record! {
     #[check(AuditRun::relations)]
     struct AuditRun {
         /// Number of false closures that are called supported.
-        false_supported: u32 => lower("false supported").decimals(2),
+        false_supported: u32 => lower("false supported"),
         /// Number of right closures that are called refuted.
-        true_refuted: u32 => lower("right refuted").decimals(2),
+        true_refuted: u32 => lower("right refuted"),
         /// Number of certificates whose bound is broken by others than the closure in question.
         /// Their cycle exceeds its bound even if all other closures are replaced by the truth.
         /// These are refuted right closures, and witnesses with errors beyond their bounds.
-        bounds_broken: u32 => lower("bounds broken").decimals(2),
+        bounds_broken: u32 => lower("bounds broken"),
         /// Share of false closures that are refuted.
         false_refuted_percent: f64 => higher("false refuted").percent().decimals(1),
         /// Share of right closures that are supported; no value if there are none.
@@ -72,9 +73,9 @@ record! {
         /// 40 times as long as the audit. The ratio is then an upper bound.
         seconds_over_gtsam: Option<f64> => lower("time over GTSAM's").at_least(0).decimals(3),
         /// Number of false closures that GTSAM keeps; no value if it was stopped.
-        gtsam_false_kept: Option<u32> => lower("GTSAM keeps false").decimals(2),
+        gtsam_false_kept: Option<u32> => lower("GTSAM keeps false"),
         /// Number of right closures that GTSAM drops; no value if it was stopped.
-        gtsam_true_dropped: Option<u32> => lower("GTSAM drops right").decimals(2),
+        gtsam_true_dropped: Option<u32> => lower("GTSAM drops right"),
         /// Number of false closures that were added; fewer if the graph has no room for them.
         added: u32 => neither("added").decimals(0),
     }
@@ -92,8 +93,8 @@ impl AuditRun {
 pub(super) fn table(graphs: &Graphs, options: &Options) -> Table {
     let runs = options.runs_else(3, 1);
     let rows = graphs.known.iter().flat_map(|known| {
-        Kind::ALL.map(|kind| {
-            let row = Row::new(format!("{} · {}", known.name, kind.name())).runs(runs);
+        Kind::ALL.map(|(_, kind)| {
+            let row = Row::new(format!("{} · {}", known.name, kind)).runs(runs);
             match known.graph {
                 Some(_) => row,
                 None => row.missing(MISSING),
@@ -132,41 +133,34 @@ impl Graphs {
     pub(super) fn find() -> Result<Self, BoxError> {
         let folder = data::folder().map(|folder| folder.join("graphs"));
         let folder = folder.as_deref();
-        let known = vec![
-            Known {
-                name: "manhattan",
-                scale: MANHATTAN_SCALE,
-                false_closures: MANY,
-                graph: of_others(folder, "manhattanOlson3500.g2o.gz", |folder, _| {
-                    poses_of_lines(&unpacked(
-                        &folder.join("manhattanOlson3500_nodes_groundTruth.dat.gz"),
-                    )?)
-                })?,
-            },
-            Known {
-                name: "intel",
-                scale: 1.0,
-                false_closures: MANY,
-                // All its closures are right, and its poses are optimized with them.
-                graph: of_others(folder, "intel.g2o.gz", |_, graph| Ok(graph.poses()))?,
-            },
-            Known {
-                name: "ring",
-                scale: 1.0,
-                false_closures: MANY,
-                graph: of_others(folder, "ring.g2o.gz", |folder, _| {
-                    Ok(GraphFile::read(&folder.join("ring_groundtruth.g2o.gz"))?.poses())
-                })?,
-            },
-            Known {
-                name: "rooms",
-                scale: 1.0,
-                false_closures: FEW,
-                graph: Some(rooms()?),
-            },
-        ];
+        let manhattan = of_others(folder, "manhattanOlson3500.g2o.gz", |folder, _| {
+            let truth = folder.join("manhattanOlson3500_nodes_groundTruth.dat.gz");
+            poses_of_lines(&unpacked(&truth)?)
+        })?;
+        // All its closures are right, and its poses are optimized with them.
+        let intel = of_others(folder, "intel.g2o.gz", |_, graph| Ok(graph.poses()))?;
+        let ring = of_others(folder, "ring.g2o.gz", |folder, _| {
+            Ok(GraphFile::read(&folder.join("ring_groundtruth.g2o.gz"))?.poses())
+        })?;
+        let known = |name, graph| Known {
+            name,
+            scale: 1.0,
+            false_closures: MANY,
+            graph,
+        };
         Ok(Self {
-            known,
+            known: vec![
+                Known {
+                    scale: MANHATTAN_SCALE,
+                    ..known("manhattan", manhattan)
+                },
+                known("intel", intel),
+                known("ring", ring),
+                Known {
+                    false_closures: FEW,
+                    ..known("rooms", Some(rooms()?))
+                },
+            ],
             gnc: Gnc::find(),
         })
     }
@@ -182,11 +176,8 @@ impl Graphs {
             .row
             .split_once(" · ")
             .ok_or("a row is a graph · a kind")?;
-        let kind = Kind::ALL.into_iter().find(|known| known.name() == kind);
-        let known = self.known.iter().find(|known| known.name == name);
-        let (Some(kind), Some(known)) = (kind, known) else {
-            return Err(format!("there is no row {}", job.row).into());
-        };
+        let (kind, _) = row_of(job, Kind::ALL, |(_, name)| *name == kind)?;
+        let known = row_of(job, &self.known, |known| known.name == name)?;
         let Some((file, truth)) = &known.graph else {
             return Err(format!("the graph {name} is not here").into());
         };
@@ -337,11 +328,11 @@ fn poses_of_lines(text: &str) -> Result<Vec<Pose>, BoxError> {
 
 /// Returns the project's own graph without the false closures in its file.
 fn rooms() -> Result<(GraphFile, Vec<Pose>), BoxError> {
-    let of = |text: &str| {
-        GraphFile::of(G2o::parse(text)?)
-            .map_err(|(line, error)| BoxError::from(format!("line {line}: {error}")))
+    let of = |file| {
+        GraphFile::of(file).map_err(|(line, error)| BoxError::from(format!("line {line}: {error}")))
     };
-    let (all, truth) = (of(ROOMS)?, of(ROOMS_TRUTH)?.poses());
+    let all = of(G2o::parse(ROOMS)?)?;
+    let truth = of(G2o::parse(ROOMS_TRUTH)?)?.poses();
     let mut file = all.file.clone();
     let is_right = all.graph.edges().iter().map(|edge| {
         let [from, to] = [edge.from, edge.to].map(|pose| truth[pose as usize]);
@@ -350,6 +341,5 @@ fn rooms() -> Result<(GraphFile, Vec<Pose>), BoxError> {
     });
     let mut is_right = is_right.collect::<Vec<bool>>().into_iter();
     file.edges.retain(|_| is_right.next().unwrap_or(true));
-    let graph = GraphFile::of(file).map_err(|(line, error)| format!("line {line}: {error}"))?;
-    Ok((graph, truth))
+    Ok((of(file)?, truth))
 }

@@ -45,23 +45,14 @@ const GROUP_M: f64 = 0.02;
 const GROUP_RAD: f64 = 0.01;
 
 impl Kind {
-    pub(super) const ALL: [Self; 5] = [
-        Self::Random,
-        Self::Local,
-        Self::RandomGroups,
-        Self::LocalGroups,
-        Self::Near,
+    /// The kinds with their names in rows.
+    pub(super) const ALL: [(Self, &str); 5] = [
+        (Self::Random, "random"),
+        (Self::Local, "local"),
+        (Self::RandomGroups, "random groups"),
+        (Self::LocalGroups, "local groups"),
+        (Self::Near, "near"),
     ];
-
-    pub(super) const fn name(self) -> &'static str {
-        match self {
-            Self::Random => "random",
-            Self::Local => "local",
-            Self::RandomGroups => "random groups",
-            Self::LocalGroups => "local groups",
-            Self::Near => "near",
-        }
-    }
 
     const fn is_grouped(self) -> bool {
         matches!(self, Self::RandomGroups | Self::LocalGroups)

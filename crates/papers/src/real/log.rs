@@ -28,7 +28,7 @@ pub struct RobotLog {
 }
 
 /// Result of mapping a log.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct MappedLog {
     /// Pose of each scan, in the order of the file.
     pub poses: Vec<Pose>,
@@ -147,13 +147,7 @@ impl RobotLog {
             LogMapper::Odometry => {
                 return Ok(MappedLog {
                     poses: odometry.to_vec(),
-                    closures: 0,
-                    keyframes: Vec::new(),
-                    closed: Vec::new(),
-                    places: MapView::default(),
-                    founded: BTreeMap::new(),
-                    visits: Vec::new(),
-                    certainty: None,
+                    ..MappedLog::default()
                 });
             }
             LogMapper::Places => {
@@ -249,10 +243,7 @@ impl MappedLog {
                     measured: edge.measured,
                 })
                 .collect(),
-            places: MapView::default(),
-            founded: BTreeMap::new(),
-            visits: Vec::new(),
-            certainty: None,
+            ..Self::default()
         }
     }
 

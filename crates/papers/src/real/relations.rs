@@ -11,6 +11,8 @@ use tolman_robot::Trajectory;
 use super::trajectories::{Wear, worse};
 use super::{FoundClosure, LogMapper, MappedLog, RobotLog};
 use crate::data;
+use crate::kept::once;
+use crate::rows::row_of;
 
 /// Name of the table.
 pub(super) const NAME: &str = "relations";
@@ -56,15 +58,16 @@ pub(super) fn file(name: &str) -> Option<PathBuf> {
     path.exists().then_some(path)
 }
 
-fn is_here() -> bool {
-    [LOG, RELATIONS, PUBLISHED]
-        .iter()
-        .all(|name| file(name).is_some())
+/// Returns the message for missing data; `None` if all of these files are here.
+pub(super) fn missing_of<const N: usize>(files: [&str; N], what: &str) -> Option<String> {
+    let is_here = files.into_iter().all(|name| file(name).is_some());
+    (!is_here).then(|| data::missing(what))
 }
 
 /// Returns the message for missing data.
 pub(super) fn missing() -> Option<String> {
-    (!is_here()).then(|| data::missing("the logs of the Intel lab and their relations"))
+    let what = "the logs of the Intel lab and their relations";
+    missing_of([LOG, RELATIONS, PUBLISHED], what)
 }
 
 record! {
@@ -103,7 +106,7 @@ pub(super) fn table() -> Table {
     let worst = Metric::greatest("worst_over_30s_m", RelationRun::error_over_30s_m);
     Table::of::<RelationRun>(NAME, "The Intel lab, compared with relations verified by hand")
         .metrics_from(RelationRun::error_m)
-        .metric(worst.titled("worst, over 30 s").unit("m").decimals(3))
+        .metric(worst.titled("worst, over 30 s"))
         .rows(ROWS.map(row))
         .note(
             "Every fifth scan of the raw log. Relations within 30 s have a floor of 0.09 m, because \
@@ -121,27 +124,21 @@ pub(super) fn table() -> Table {
 
 impl Intel {
     fn log(&self) -> Result<&RobotLog, BoxError> {
-        if let Some(log) = self.log.get() {
-            return Ok(log);
-        }
-        let path = file(LOG).ok_or("the log of the Intel lab is gone")?;
-        let log = RobotLog::read(&path)?;
-        Ok(self.log.get_or_init(|| log))
+        once(&self.log, || {
+            RobotLog::read(&file(LOG).ok_or("the log of the Intel lab is gone")?)
+        })
     }
 
     fn dense(&self) -> Result<&MappedLog, BoxError> {
-        if let Some(dense) = self.dense.get() {
-            return Ok(dense);
-        }
-        let log = self.log()?;
-        let dense = log.map(LogMapper::ScanMatching, &log.odometry(), |_| {})?;
-        Ok(self.dense.get_or_init(|| dense))
+        once(&self.dense, || {
+            let log = self.log()?;
+            log.map(LogMapper::ScanMatching, &log.odometry(), |_| {})
+        })
     }
 
     /// Returns the way of a row.
     fn way(&self, job: &Job<'_>) -> Result<(Trajectory, MappedLog), BoxError> {
-        let named = ROWS.iter().find(|(name, _)| *name == job.row);
-        let (_, system) = named.ok_or_else(|| format!("there is no row {}", job.row))?;
+        let (_, system) = row_of(job, ROWS, |(name, _)| *name == job.row)?;
         let Some(system) = system else {
             let path = file(PUBLISHED).ok_or("the published log of the Intel lab is gone")?;
             let mut log = RobotLog::read(&path)?;
@@ -155,10 +152,10 @@ impl Intel {
         let mapped = match (job.row, system) {
             (MADE_WORSE, _) => {
                 let odometry = worse(&log.odometry(), Wear::OF_RAW, job.seed);
-                log.map(*system, &odometry, |_| {})?
+                log.map(system, &odometry, |_| {})?
             }
             (_, LogMapper::ScanMatching) => self.dense()?.clone(),
-            _ => log.map(*system, &log.odometry(), |_| {})?,
+            _ => log.map(system, &log.odometry(), |_| {})?,
         };
         Ok((log.trajectory(&mapped.poses), mapped))
     }

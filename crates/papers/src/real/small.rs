@@ -8,6 +8,7 @@ use tolman_geom::Pose;
 
 use super::trajectories::aligned;
 use super::{LogMapper, RobotLog};
+use crate::rows::row_of;
 
 /// Name of the table.
 pub(super) const NAME: &str = "small log";
@@ -63,10 +64,9 @@ impl Small {
     }
 
     pub(super) fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
-        let named = ROWS.iter().find(|(name, _)| *name == job.row);
-        let (_, system) = named.ok_or_else(|| format!("there is no row {}", job.row))?;
+        let (_, system) = row_of(job, ROWS, |(name, _)| *name == job.row)?;
         let truth: Vec<Pose> = self.log.scans.iter().map(|scan| scan.noted).collect();
-        let found = self.log.map(*system, &self.log.odometry(), |_| {})?;
+        let found = self.log.map(system, &self.log.odometry(), |_| {})?;
         let score = aligned(&found.poses, &truth)?;
         let run = SmallRun {
             rms_m: score.rms,

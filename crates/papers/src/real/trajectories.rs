@@ -9,9 +9,10 @@ use tolman_arena::log_score::AlignedScore;
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table, record};
 use tolman_geom::{Heading, Point, Pose};
 
-use super::relations::file;
+use super::relations::{file, missing_of};
 use super::{LogMapper, RobotLog};
 use crate::data;
+use crate::rows::row_of;
 
 /// Name of the table.
 pub(super) const NAME: &str = "trajectories";
@@ -70,7 +71,7 @@ record! {
         /// Root-mean-square distance with scans matched only to earlier ones.
         matching_rms_m: f64 => lower("without closures").unit("m").at_least(0).decimals(3),
         /// Root-mean-square distance by the wheels alone.
-        odometry_rms_m: f64 => neither("by the wheels alone").unit("m").at_least(0).decimals(2),
+        odometry_rms_m: f64 => neither("by the wheels alone").unit("m").at_least(0),
         /// Number of places that were recognized again.
         closures: usize => neither("closures").decimals(0),
     }
@@ -78,8 +79,7 @@ record! {
 
 /// Returns the message for a missing log.
 pub(super) fn missing() -> Option<String> {
-    let here = ROWS.iter().all(|(_, name, _)| file(name).is_some());
-    (!here).then(|| data::missing("logs of buildings"))
+    missing_of(ROWS.map(|(_, name, _)| name), "logs of buildings")
 }
 
 pub(super) fn table() -> Table {
@@ -136,8 +136,7 @@ fn gaussian(rng: &mut ChaCha8Rng) -> f64 {
 }
 
 pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
-    let named = ROWS.iter().find(|(name, _, _)| *name == job.row);
-    let (_, name, is_raw) = named.ok_or_else(|| format!("there is no row {}", job.row))?;
+    let (_, name, is_raw) = row_of(job, ROWS, |(name, ..)| *name == job.row)?;
     let path = file(name).ok_or_else(|| format!("the log of {} is gone", job.row))?;
     let log = RobotLog::read(&path)?;
     let truth: Vec<Pose> = log.scans.iter().map(|scan| scan.noted).collect();

@@ -11,8 +11,8 @@ use tolman_maps::pose_graph::{PoseEdge, PoseEdgeKind, PoseGraph};
 use tolman_robot::Trajectory;
 
 use super::landmarks::information;
-use super::relations::file;
-use crate::data;
+use super::relations::{file, missing_of};
+use crate::rows::row_of;
 
 /// Name of the table.
 pub(super) const NAME: &str = "tuc";
@@ -57,8 +57,7 @@ record! {
 
 /// Returns the message for the missing drive.
 pub(super) fn missing() -> Option<String> {
-    let here = [DRIVE, TRUTH].iter().all(|name| file(name).is_some());
-    (!here).then(|| data::missing("the corridor of Chemnitz"))
+    missing_of([DRIVE, TRUTH], "the corridor of Chemnitz")
 }
 
 pub(super) fn table() -> Table {
@@ -78,14 +77,13 @@ pub(super) fn table() -> Table {
 }
 
 pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
-    let named = ROWS.iter().find(|(name, _)| *name == job.row);
-    let (_, least) = named.ok_or_else(|| format!("there is no row {}", job.row))?;
+    let (_, least) = row_of(job, ROWS, |(name, _)| *name == job.row)?;
     let read = |name| file(name).ok_or("the corridor of Chemnitz is gone");
     let drive = TucDrive::read(&read(DRIVE)?)?;
     let truth = TucDrive::read_truth(&read(TRUTH)?)?;
     let is_true = |one: &PlaceMatch| is_true(one, &truth);
     let all_true = drive.matches.iter().filter(|one| is_true(one)).count();
-    let looked_at = drive.matches.iter().filter(|one| one.similarity >= *least);
+    let looked_at = drive.matches.iter().filter(|one| one.similarity >= least);
     let matches: Vec<PlaceMatch> = looked_at.copied().collect();
     let accepted = accepted(&drive.odometry, &matches)?;
     let right = accepted.iter().filter(|one| is_true(one)).count();

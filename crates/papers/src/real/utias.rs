@@ -1,8 +1,6 @@
 //! A place map of one robot's observations, on which other robots localize. It gives the score of
 //! GNG-SLAM's paper on real robots.
 
-use std::path::PathBuf;
-
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
@@ -19,8 +17,7 @@ use tolman_robot::{Snapshot, Sounding, Trajectory};
 use tolman_sim::Bounds;
 
 use super::landmarks::{LandmarkMap, steps_of};
-use super::relations::file;
-use crate::data;
+use super::relations::{file, missing_of};
 
 /// Name of the table.
 pub(super) const NAME: &str = "utias";
@@ -46,23 +43,17 @@ record! {
         /// the cell's middle, in cells.
         score: f64 => higher("score").decimals(3),
         /// Mean distance from its true position, m.
-        error_m: f64 => lower("error").unit("m").at_least(0).decimals(2),
+        error_m: f64 => lower("error").unit("m").at_least(0),
         /// Root-mean-square error of the learning robot's corrected way, m.
-        map_error_m: f64 => lower("error of the map").unit("m").at_least(0).decimals(2),
+        map_error_m: f64 => lower("error of the map").unit("m").at_least(0),
         /// Number of records that were scored.
         records: usize => neither("records").decimals(0),
     }
 }
 
-fn folder() -> Option<PathBuf> {
-    file(FOLDER)
-}
-
 /// Returns the message for the missing set.
 pub(super) fn missing() -> Option<String> {
-    folder()
-        .is_none()
-        .then(|| data::missing("the UTIAS set of robots and landmarks"))
+    missing_of([FOLDER], "the UTIAS set of robots and landmarks")
 }
 
 pub(super) fn table() -> Table {
@@ -84,7 +75,7 @@ pub(super) fn table() -> Table {
 }
 
 pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
-    let folder = folder().ok_or("the UTIAS set is gone")?;
+    let folder = file(FOLDER).ok_or("the UTIAS set is gone")?;
     let [learns, tries] = PAIRS[job.run as usize % PAIRS.len()];
     let learner = UtiasRobot::read(&folder, learns)?;
     let trier = UtiasRobot::read(&folder, tries)?;

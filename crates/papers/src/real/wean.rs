@@ -7,8 +7,8 @@ use tolman_robot::Mapper;
 use tolman_systems::places::{PlacesConfig, PlacesMapper};
 
 use super::RobotLog;
-use super::relations::file;
-use crate::data;
+use super::relations::{file, missing_of};
+use crate::rows::row_of;
 
 /// Name of the table.
 pub(super) const NAME: &str = "wean";
@@ -33,9 +33,9 @@ record! {
         /// Number of places that were recognized on the same day.
         closures: usize => neither("closures").decimals(0),
         /// Mean likelihood of its surfaces on those of the other day, 0 to 1.
-        overlay_score: f64 => higher("overlay").decimals(2),
+        overlay_score: f64 => higher("overlay"),
         /// The best such likelihood if the map is laid elsewhere.
-        rival_score: f64 => neither("best elsewhere").decimals(2),
+        rival_score: f64 => neither("best elsewhere"),
         /// Number of places that have one of the other day near by.
         found_again: usize => higher("found again").decimals(0),
         /// Number of places on ground that the other day's robot covered.
@@ -45,8 +45,7 @@ record! {
 
 /// Returns the message for a missing log.
 pub(super) fn missing() -> Option<String> {
-    let here = ROWS.iter().all(|(_, name)| file(name).is_some());
-    (!here).then(|| data::missing("the logs of Wean Hall"))
+    missing_of(ROWS.map(|(_, name)| name), "the logs of Wean Hall")
 }
 
 pub(super) fn table() -> Table {
@@ -77,8 +76,8 @@ fn mapped(number: usize) -> Result<PlacesMapper, BoxError> {
 }
 
 pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
-    let number = ROWS.iter().position(|(name, _)| *name == job.row);
-    let number = number.ok_or_else(|| format!("there is no row {}", job.row))?;
+    let rows = ROWS.into_iter().enumerate();
+    let (number, _) = row_of(job, rows, |(_, (name, _))| *name == job.row)?;
     let (here, other) = (mapped(number)?, mapped(number + 1)?);
     let overlay = other.matching().overlay(here.matching());
     let overlay = overlay.ok_or("a map without walls lies nowhere")?;

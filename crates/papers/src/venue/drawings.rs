@@ -11,10 +11,11 @@ use rand_chacha::rand_core::SeedableRng;
 use tolman_maze::{GenerateError, Hook, Maze, MazeFile, OneLoop};
 
 use super::paper::PaperRow;
-use super::{Venue, right_hand};
+use super::{Played, Venue, right_hand};
 use tolman_arena::cast::Agent;
 use tolman_arena::course::Course;
-use tolman_arena::{episode, pioneer};
+use tolman_arena::episode::{self, EpisodeError};
+use tolman_arena::pioneer;
 use tolman_experiment::{BoxError, run_seed};
 use tolman_stats::wilson_interval;
 
@@ -67,22 +68,9 @@ pub(crate) struct Judged {
     pub(crate) avoid: Played,
     pub(crate) wall_follow: Played,
     pub(crate) oracle: Played,
-    conditions: Vec<Judgement>,
-}
-
-/// The runs of one agent.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Played {
-    pub(crate) success_percent: f64,
-    pub(crate) mean_steps: f64,
-}
-
-/// A condition, and the amount by which a drawing misses it.
-#[derive(Clone, Copy, Debug)]
-struct Judgement {
-    condition: Condition,
-    /// Excess as a share of the bound; 0 if the condition is met.
-    excess: f64,
+    /// The conditions, each with the amount by which the drawing misses it: the excess as a share of
+    /// the bound; 0 if the condition is met.
+    conditions: Vec<(Condition, f64)>,
 }
 
 /// A condition that a drawing must meet.
@@ -199,8 +187,7 @@ impl Drawing {
         };
         for condition in self.conditions() {
             let excess = self.excess(*condition, &venue, &judged)?;
-            let condition = *condition;
-            judged.conditions.push(Judgement { condition, excess });
+            judged.conditions.push((*condition, excess));
         }
         Ok(Some(judged))
     }
@@ -210,26 +197,21 @@ impl Drawing {
             let row = venue.paper(agent.name());
             row.ok_or_else(|| format!("the paper has no row {:?}", agent.name()))
         };
-        Ok(match condition {
-            Condition::Traps => beyond(judged.trapped_percent, TRAPPED),
-            Condition::OracleSteps => beyond(judged.oracle.mean_steps, (0.0, self.oracle_steps())),
-            Condition::AvoidSuccess => {
-                let interval = success_interval(paper(Agent::Avoid)?)?;
-                beyond(judged.avoid.success_percent, interval)
-            }
-            Condition::AvoidSteps => {
-                let interval = steps_interval(paper(Agent::Avoid)?);
-                beyond(judged.avoid.mean_steps, interval)
-            }
-            Condition::WallFollowSuccess => {
-                let interval = success_interval(paper(Agent::WallFollow)?)?;
-                beyond(judged.wall_follow.success_percent, interval)
-            }
-            Condition::WallFollowSteps => {
-                let interval = steps_interval(paper(Agent::WallFollow)?);
-                beyond(judged.wall_follow.mean_steps, interval)
-            }
-        })
+        let success = |agent, played: &Played| -> Result<_, BoxError> {
+            let interval = success_interval(paper(agent)?)?;
+            Ok(beyond(played.success_percent(), interval))
+        };
+        let steps = |agent, played: &Played| -> Result<_, BoxError> {
+            Ok(beyond(played.steps(), steps_interval(paper(agent)?)))
+        };
+        match condition {
+            Condition::Traps => Ok(beyond(judged.trapped_percent, TRAPPED)),
+            Condition::OracleSteps => Ok(beyond(judged.oracle.steps(), (0.0, self.oracle_steps()))),
+            Condition::AvoidSuccess => success(Agent::Avoid, &judged.avoid),
+            Condition::AvoidSteps => steps(Agent::Avoid, &judged.avoid),
+            Condition::WallFollowSuccess => success(Agent::WallFollow, &judged.wall_follow),
+            Condition::WallFollowSteps => steps(Agent::WallFollow, &judged.wall_follow),
+        }
     }
 }
 
@@ -237,16 +219,13 @@ impl Judged {
     /// Returns whether it misses a condition.
     pub(crate) fn misses(&self, condition: Condition) -> bool {
         let mut conditions = self.conditions.iter();
-        conditions.any(|judgement| judgement.condition == condition && judgement.excess > 0.0)
+        conditions.any(|(missed, excess)| *missed == condition && *excess > 0.0)
     }
 
     /// Returns the sum of the excesses over all conditions, as shares of their bounds; 0 for a
     /// kept drawing.
     pub(crate) fn summed_excess(&self) -> f64 {
-        self.conditions
-            .iter()
-            .map(|judgement| judgement.excess)
-            .sum()
+        self.conditions.iter().map(|(_, excess)| excess).sum()
     }
 }
 
@@ -278,19 +257,10 @@ fn steps_interval(paper: &PaperRow) -> (f64, f64) {
 
 /// Returns the runs of an agent, the same as those of its row in the table of that maze with seed
 /// 1.
-fn played(venue: &Venue, agent: Agent) -> Result<Played, BoxError> {
-    let (mut reached, mut steps) = (0_u32, 0_u32);
-    for run in 0..RUNS {
+fn played(venue: &Venue, agent: Agent) -> Result<Played, EpisodeError> {
+    Played::of(RUNS, |run| {
         let trial = venue.trial(run_seed(SEED, &venue.table, run));
-        let mut mind = venue.mind(agent)?;
-        let episode = episode::run(&trial, &mut mind, |_| {})?;
-        reached += u32::from(episode.reached);
-        steps += episode.steps;
-    }
-    let mean = |sum: u32| f64::from(sum) / f64::from(RUNS);
-    Ok(Played {
-        success_percent: 100.0 * mean(reached),
-        mean_steps: mean(steps),
+        episode::run(&trial, &mut venue.mind(agent)?, |_| {})
     })
 }
 

@@ -1,8 +1,9 @@
 //! The record of an episode for a table.
 
 use super::Venue;
+use crate::tolerances::{SUCCESS, TIME};
 use tolman_arena::episode::Episode;
-use tolman_experiment::{Record, Table, record, require};
+use tolman_experiment::{Metric, Record, Table, record, require};
 
 record! {
     /// A run of a brain in a maze.
@@ -64,9 +65,13 @@ const fn outcome(reached: bool) -> &'static str {
 }
 
 impl Venue {
-    /// Returns the table of this world. Each of its runs has a [`MazeRun`] in its record.
+    /// Returns the table of this world with its first metrics. Each of its runs has a [`MazeRun`]
+    /// in its record.
     pub(crate) fn table<T: Record>(&self) -> Table {
         let table = Table::of::<T>(&self.table, &self.title)
+            .metric(Metric::percent("success_percent", MazeRun::reached).tolerance(SUCCESS))
+            .metric(Metric::mean(MazeRun::actions).tolerance(TIME))
+            .metric(Metric::mean(MazeRun::steps).tolerance(TIME))
             .at_most(MazeRun::steps, self.step_limit)
             .note(format!(
                 "A run ends when the robot's centre lies in the destination, or fails after {} time steps, \

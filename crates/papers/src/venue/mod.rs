@@ -4,6 +4,7 @@ mod drawings;
 mod files;
 mod measured;
 mod paper;
+mod played;
 mod right_hand;
 
 use alloc::collections::BTreeMap;
@@ -22,10 +23,11 @@ use tolman_experiment::{BoxError, Job, Row};
 use tolman_film::Recorder;
 use tolman_replay::Replay;
 
-pub(super) use drawings::{Condition, Drawing, Judged, LARGE_DRAWINGS};
+pub(super) use drawings::{Condition, Drawing, LARGE_DRAWINGS};
 pub(super) use files::{from_file, from_files};
 pub(super) use measured::MazeRun;
-pub(super) use paper::{PaperRow, StatesRow, TABLE_1, states_row};
+pub(super) use paper::{PaperRow, StatesRow, TABLE_1};
+pub(super) use played::Played;
 
 /// A world with its table.
 #[derive(Debug)]

@@ -1,7 +1,5 @@
 //! The paper's values for its two mazes.
 
-use tolman_experiment::BoxError;
-
 /// A row of the paper's tables 2 and 3, with means and their standard deviations.
 #[derive(Debug)]
 pub(crate) struct PaperRow {
@@ -61,13 +59,6 @@ pub(crate) const TABLE_1: [StatesRow; 3] = [
     states("Large 20", "Large", 20.0, 43.0),
     states("Large 50", "Large", 50.0, 26.0),
 ];
-
-/// Returns the row of table 1 called `name`.
-pub(crate) fn states_row(name: &str) -> Result<StatesRow, BoxError> {
-    let mut rows = TABLE_1.into_iter();
-    let row = rows.find(|row| row.row == name);
-    row.ok_or_else(|| format!("table 1 has no row {name:?}").into())
-}
 
 /// The paper's limits, time steps.
 pub(crate) const J_STEPS: u32 = 200;
