@@ -273,7 +273,7 @@ impl FloorPlan {
     pub fn image(&mut self, image: &Image, bounds: &Bounds) {
         let ((west, south), (east, north)) = (self.at(bounds.min), self.at(bounds.max));
         self.layers
-            .push(image.element((west, north), (east - west, south - north)));
+            .push(image.element(Some((west, north)), (east - west, south - north)));
     }
 
     /// Adds a word centred at a position.

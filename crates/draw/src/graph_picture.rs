@@ -68,6 +68,36 @@ pub enum NodeMark {
     Square,
 }
 
+impl NodeMark {
+    /// Returns the shape as an element, in the colour of a series or of the element around it, with
+    /// a note that may be empty.
+    pub(super) fn markup(
+        self,
+        series: Option<Series>,
+        (x, y): (f64, f64),
+        r: f64,
+        note: &str,
+    ) -> Markup {
+        let class = match self {
+            Self::Ring | Self::Square => "node",
+            Self::Disc => "node full",
+        };
+        let class = match series {
+            Some(series) => format!("{class} {}", series.class()),
+            None => class.to_owned(),
+        };
+        let note = html! { @if !note.is_empty() { title { (note) } } };
+        html! {
+            @if self == Self::Square {
+                rect class=(class) x=(tenths(x - r)) y=(tenths(y - r))
+                    width=(tenths(2.0 * r)) height=(tenths(2.0 * r)) { (note) }
+            } @else {
+                circle class=(class) cx=(tenths(x)) cy=(tenths(y)) r=(tenths(r)) { (note) }
+            }
+        }
+    }
+}
+
 /// An edge of a drawn graph.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GraphEdge {
@@ -137,7 +167,7 @@ impl GraphPicture {
                     path class={ "head " (series.class()) } d=(head) {}
                 }
                 @for node in self.nodes.iter().filter(|node| is_finite(node)) {
-                    (self.node_markup(node, at(node.position)))
+                    (node.mark.markup(Some(node.series), at(node.position), self.radius, &node.note))
                 }
                 @for (label, (x, y)) in self.labels(at, frame) {
                     text class="label" x=(tenths(x)) y=(tenths(y)) { (label) }
@@ -147,24 +177,6 @@ impl GraphPicture {
                     text class="label quiet" text-anchor="middle" dominant-baseline="central"
                         x=(tenths(x)) y=(tenths(y)) { (edge.label) }
                 }
-            }
-        }
-    }
-
-    fn node_markup(&self, node: &GraphNode, (x, y): (f64, f64)) -> Markup {
-        let r = self.radius;
-        let class = match node.mark {
-            NodeMark::Ring | NodeMark::Square => "node",
-            NodeMark::Disc => "node full",
-        };
-        let class = format!("{class} {}", node.series.class());
-        let note = html! { @if !node.note.is_empty() { title { (node.note) } } };
-        html! {
-            @if node.mark == NodeMark::Square {
-                rect class=(class) x=(tenths(x - r)) y=(tenths(y - r))
-                    width=(tenths(2.0 * r)) height=(tenths(2.0 * r)) { (note) }
-            } @else {
-                circle class=(class) cx=(tenths(x)) cy=(tenths(y)) r=(tenths(r)) { (note) }
             }
         }
     }

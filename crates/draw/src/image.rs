@@ -108,29 +108,27 @@ impl Image {
     /// Returns the picture, `width` user units wide. `description` describes it in words.
     pub fn drawing(&self, description: impl Into<String>, width: f64) -> Drawing {
         let height = width * f64::from(self.height) / f64::from(self.width);
-        let data = self.data();
         Drawing {
             width,
             height,
             description: description.into(),
-            body: html! {
-                image class="pixels" href=(data) width=(tenths(width)) height=(tenths(height))
-                    preserveAspectRatio="none" {}
-            },
+            body: self.element(None, (width, height)),
         }
     }
 
-    /// Returns the picture as an element of another picture, with its top left corner and its size
-    /// in user units.
-    pub(super) fn element(&self, (x, y): (f64, f64), (width, height): (f64, f64)) -> Markup {
+    /// Returns the picture as an element, with its top left corner, if it is not the origin, and its
+    /// size in user units.
+    pub(super) fn element(
+        &self,
+        corner: Option<(f64, f64)>,
+        (width, height): (f64, f64),
+    ) -> Markup {
+        let data = format!("data:image/png;base64,{}", STANDARD.encode(&self.png));
+        let (x, y) = corner.map(|(x, y)| (tenths(x), tenths(y))).unzip();
         html! {
-            image class="pixels" href=(self.data()) x=(tenths(x)) y=(tenths(y)) width=(tenths(width))
-                height=(tenths(height)) preserveAspectRatio="none" {}
+            image class="pixels" href=(data) x=[x] y=[y] width=(tenths(width)) height=(tenths(height))
+                preserveAspectRatio="none" {}
         }
-    }
-
-    fn data(&self) -> String {
-        format!("data:image/png;base64,{}", STANDARD.encode(&self.png))
     }
 }
 

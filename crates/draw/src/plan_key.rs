@@ -2,9 +2,9 @@
 
 use maud::{Markup, html};
 
-use super::Series;
 use super::number::{tenths, trimmed};
 use super::words;
+use super::{NodeMark, Series};
 
 /// Height of a line of the key, user units.
 const LINE: f64 = 18.0;
@@ -93,7 +93,7 @@ fn bar(scale: f64, width: f64) -> Option<(f64, f64)> {
 }
 
 fn sign(mark: KeyMark, x: f64, y: f64) -> Markup {
-    let middle = x + 0.5 * SIGN;
+    let node = |mark: NodeMark| mark.markup(None, (x + 0.5 * SIGN, y), 3.2, "");
     let line = |dashes: Option<&str>| {
         html! {
             path class="edge" stroke-dasharray=[dashes]
@@ -101,15 +101,9 @@ fn sign(mark: KeyMark, x: f64, y: f64) -> Markup {
         }
     };
     match mark {
-        KeyMark::Ring => {
-            html! { circle class="node" cx=(tenths(middle)) cy=(tenths(y)) r="3.2" {} }
-        }
-        KeyMark::Disc => {
-            html! { circle class="node full" cx=(tenths(middle)) cy=(tenths(y)) r="3.2" {} }
-        }
-        KeyMark::Square => html! {
-            rect class="node" x=(tenths(middle - 3.2)) y=(tenths(y - 3.2)) width="6.4" height="6.4" {}
-        },
+        KeyMark::Ring => node(NodeMark::Ring),
+        KeyMark::Disc => node(NodeMark::Disc),
+        KeyMark::Square => node(NodeMark::Square),
         KeyMark::Line => line(None),
         KeyMark::Dashed => line(Some("4 3")),
         KeyMark::Box => html! {
