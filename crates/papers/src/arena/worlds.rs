@@ -11,6 +11,18 @@ use tolman_maze::Maze;
 
 use crate::maze_file;
 
+/// Returns a drawing of the family of this name.
+pub(crate) fn drawn(
+    family: &str,
+    size: FamilySize,
+    rng: &mut ChaCha8Rng,
+) -> Result<Maze, BoxError> {
+    let families = Family::all();
+    let family =
+        Family::named(&families, family).ok_or_else(|| format!("there is no family {family:?}"))?;
+    (family.draw)(family.size(size), rng)
+}
+
 /// A kind of world that contests are held in.
 #[derive(Clone, Debug)]
 pub enum ArenaWorld {

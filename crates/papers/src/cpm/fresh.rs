@@ -3,14 +3,14 @@
 use rand::{Rng, RngExt};
 use serde::Serialize;
 use tolman_arena::contest::{Claim, Condition, Contest, ContestRecord, Moment};
-use tolman_arena::family::{Family, FamilySize};
+use tolman_arena::family::FamilySize;
 use tolman_arena::registry::{Registry, Schooling};
 use tolman_experiment::{BoxError, Fields, Metric, Options, Record, Row, Table, record, require};
 use tolman_maze::Maze;
 use tolman_robot::Landmark;
 use tolman_systems::stream;
 
-use crate::arena::LearnRun;
+use crate::arena::{LearnRun, drawn};
 
 /// Name of the table.
 pub(super) const FRESH: &str = "fresh worlds";
@@ -203,9 +203,7 @@ impl FreshRow {
                 .get(position(several.len(), &mut rng))
                 .ok_or("the row has no family")?,
         };
-        let families = Family::all();
-        let family = Family::named(&families, name).ok_or("there is no such family")?;
-        (family.draw)(family.size(FamilySize::Middle), &mut rng)
+        drawn(name, FamilySize::Middle, &mut rng)
     }
 
     /// Lets the robot explore a new world and returns the record.

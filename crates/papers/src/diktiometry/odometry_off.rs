@@ -8,6 +8,7 @@ use tolman_maze::Direction;
 use tolman_systems::stream;
 
 use super::fresh::{QUICK, WORLD_STREAM, WORLDS};
+use crate::arena::drawn;
 
 /// Name of the table.
 pub(super) const ODOMETRY_OFF: &str = "odometry off";
@@ -105,10 +106,7 @@ pub(super) fn table(rows: &[BlindRow], options: &Options) -> Table {
 impl BlindRow {
     /// Lets the robot make a map of a new world, and returns the record.
     pub(super) fn run(&self, seed: u64) -> Result<Fields, BoxError> {
-        let families = Family::all();
-        let family = Family::named(&families, self.family)
-            .ok_or_else(|| format!("there is no family {:?}", self.family))?;
-        let maze = (family.draw)(family.size(self.size), &mut stream(seed, WORLD_STREAM))?;
+        let maze = drawn(self.family, self.size, &mut stream(seed, WORLD_STREAM))?;
         let start = maze.start().map_or_else(Default::default, |(cell, _)| cell);
         let mut walk = BumpWalk::new(&maze, start, BumpSight::None);
         let mut rng = stream(seed, WALK_STREAM);

@@ -12,7 +12,7 @@ use super::entrant::{Entrant, LearnerConfig, Ready};
 use super::families::over;
 use crate::kept::once;
 use crate::rows::row_of;
-use crate::venue::{self, MazeRun, Venue, World};
+use crate::venue::{self, MazeRun, PAPER_RUNS, Venue, World};
 use tolman_arena::Mind;
 use tolman_arena::cast::Agent;
 use tolman_arena::episode::{self, Episode, Trial};
@@ -73,9 +73,6 @@ pub(super) struct Competitor {
     /// learns none.
     ready: Vec<(u64, OnceLock<Ready>)>,
 }
-
-/// Number of runs of each of the paper's rows.
-const PAPER_RUNS: u32 = 25;
 
 /// The significant differences that the paper reports, by row of MSLST and other row.
 const PAPER_P: [(&str, &str, f64); 6] = [

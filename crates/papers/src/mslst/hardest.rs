@@ -10,12 +10,13 @@ use tolman_geom::Point;
 use super::driven::{DrivenRun, Driver, shared_out};
 use super::entrant::{Entrant, LearnerConfig};
 use super::figures::WIDTH;
+use crate::arena::drawn;
 use crate::rows::row_of;
 use crate::venue::{Venue, World};
 use tolman_arena::episode::Episode;
-use tolman_arena::family::{Family, FamilySize};
+use tolman_arena::family::FamilySize;
 use tolman_arena::mslst::learn_better;
-use tolman_arena::pioneer::{self, ENCODER_SD, with_sensor_noise};
+use tolman_arena::pioneer;
 use tolman_draw::{Figure, Series};
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Run, Table};
 
@@ -106,7 +107,7 @@ impl Hardest {
         seed: u64,
         watch: impl FnMut(&Episode, &Episode),
     ) -> Result<DrivenRun, BoxError> {
-        let robot = with_sensor_noise(&venue.robot, ENCODER_SD);
+        let robot = Entrant::Better.robot(venue);
         let learned = learn_better(&venue.course, &robot, 1, seed)?;
         let driver = Driver {
             venue,
@@ -159,11 +160,8 @@ impl Hardest {
 }
 
 fn world(family: &str, seed: u64) -> Result<Venue, BoxError> {
-    let families = Family::all();
-    let drawn = Family::named(&families, family);
-    let drawn = drawn.ok_or_else(|| format!("there is no family {family}"))?;
     let rng = &mut ChaCha8Rng::seed_from_u64(seed);
-    let maze = (drawn.draw)(drawn.size(FamilySize::Middle), rng)?;
+    let maze = drawn(family, FamilySize::Middle, rng)?;
     let name = format!("{family} {seed}");
     Venue::of_maze(HARDEST, &name, maze)
 }

@@ -1,11 +1,11 @@
 //! Size of the better system's map relative to the number of true places, and whether it stops
 //! growing.
 
+use super::entrant::Entrant;
 use super::families::random;
 use crate::metrics::UsualMetrics as _;
 use crate::rows::row_of;
 use tolman_arena::mslst::learn_better;
-use tolman_arena::pioneer::{ENCODER_SD, with_sensor_noise};
 use tolman_arena::run::TaskEnd;
 use tolman_experiment::{BoxError, Fields, Job, Metric, Record, Row, Table, record};
 use tolman_systems::mslst::ROBOT_UNIT;
@@ -64,7 +64,7 @@ pub(super) fn table(runs: u32) -> Table {
 pub(super) fn run(job: &Job<'_>) -> Result<Fields, BoxError> {
     let (_, times) = row_of(job, ROWS, |(row, _)| *row == job.row)?;
     let venue = random(job)?;
-    let robot = with_sensor_noise(&venue.robot, ENCODER_SD);
+    let robot = Entrant::Better.robot(&venue);
     let learned = learn_better(&venue.course, &robot, times, job.seed)?;
     let (nodes, places) = (
         learned.positions.len() as u32,

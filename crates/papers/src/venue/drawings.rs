@@ -10,7 +10,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tolman_maze::{GenerateError, Hook, Maze, MazeFile, OneLoop};
 
-use super::paper::PaperRow;
+use super::paper::{PAPER_RUNS, PaperRow};
 use super::{Played, Venue, right_hand};
 use tolman_arena::cast::Agent;
 use tolman_arena::course::Course;
@@ -24,9 +24,6 @@ const SEED: u64 = 1;
 
 /// Number of runs of each agent that judge a drawing.
 const RUNS: u32 = 1000;
-
-/// Number of runs of each of the paper's rows.
-const PAPER_RUNS: u32 = 25;
 
 /// The normal quantile of a 95 % interval.
 const Z: f64 = 1.96;

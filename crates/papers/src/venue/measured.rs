@@ -1,6 +1,6 @@
 //! The record of an episode for a table.
 
-use super::Venue;
+use super::{PAPER_RUNS, Venue};
 use crate::tolerances::{SUCCESS, TIME};
 use tolman_arena::episode::Episode;
 use tolman_experiment::{Metric, Record, Table, record, require};
@@ -81,7 +81,7 @@ impl Venue {
         if self.paper.is_empty() {
             table
         } else {
-            table.paper_runs(25)
+            table.paper_runs(PAPER_RUNS)
         }
     }
 }

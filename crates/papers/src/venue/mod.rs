@@ -26,7 +26,7 @@ use tolman_replay::Replay;
 pub(super) use drawings::{Condition, Drawing, LARGE_DRAWINGS};
 pub(super) use files::{from_file, from_files};
 pub(super) use measured::MazeRun;
-pub(super) use paper::{PaperRow, StatesRow, TABLE_1};
+pub(super) use paper::{PAPER_RUNS, PaperRow, StatesRow, TABLE_1};
 pub(super) use played::Played;
 
 /// A world with its table.

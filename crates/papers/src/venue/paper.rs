@@ -60,6 +60,9 @@ pub(crate) const TABLE_1: [StatesRow; 3] = [
     states("Large 50", "Large", 50.0, 26.0),
 ];
 
+/// Number of runs of each row of tables 2 and 3.
+pub(crate) const PAPER_RUNS: u32 = 25;
+
 /// The paper's limits, time steps.
 pub(crate) const J_STEPS: u32 = 200;
 pub(crate) const LARGE_STEPS: u32 = 500;
