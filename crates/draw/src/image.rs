@@ -116,8 +116,8 @@ impl Image {
         }
     }
 
-    /// Returns the picture as an element, with its top left corner, if it is not the origin, and its
-    /// size in user units.
+    /// Returns the picture as an element, with its top left corner, if it is not the origin, and
+    /// its size in user units.
     pub(super) fn element(
         &self,
         corner: Option<(f64, f64)>,

@@ -65,8 +65,8 @@ pub(crate) struct Judged {
     pub(crate) avoid: Played,
     pub(crate) wall_follow: Played,
     pub(crate) oracle: Played,
-    /// The conditions, each with the amount by which the drawing misses it: the excess as a share of
-    /// the bound; 0 if the condition is met.
+    /// The conditions, each with the amount by which the drawing misses it: the excess as a share
+    /// of the bound; 0 if the condition is met.
     conditions: Vec<(Condition, f64)>,
 }
 
