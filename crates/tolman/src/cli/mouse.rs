@@ -22,7 +22,7 @@ use super::looks::Looks;
 use super::maze::Collection;
 use super::mice::{MouseResult, send_all};
 use super::words::words;
-use super::{Failure, OrBadInput, Result, maze};
+use super::{Failure, OrBadInput, Result, Unboxed, maze};
 pub(super) use way::{Came, PITCH, Way, WayStep, half_cells};
 
 /// Sends a micromouse through mazes: it explores, proves its run, and drives it

@@ -16,7 +16,7 @@ use tolman_maps::place_map::{
 };
 
 use super::share::share;
-use super::{Failure, OrBadInput, Result, file};
+use super::{Failure, OrBadInput, Result, Unboxed, file};
 
 /// Writes arenas for the place map of GNG-SLAM, and gathers data sets in them
 ///

@@ -38,7 +38,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
         let course = epuck_course(&name(path), read(path)?);
         let course = course.with_context(|| name(path)).or_bad_input()?;
         let (name, seeds) = (&course.name, 0..u64::from(arguments.walks));
-        let found = distinctness(&course, &patterns, seeds).map_err(of_registry);
+        let found = distinctness(&course, &patterns, seeds).unboxed();
         let found = found.or_bad_input()?;
         if let Some(most) = found.most_alike {
             let told = told(&most);
