@@ -44,8 +44,8 @@ impl LaidOver {
 
 /// Returns the rigid motion that brings the first points of all pairs nearest to the second.
 ///
-/// Source: S. Umeyama: Least-Squares Estimation of Transformation Parameters, 1991, in the plane and
-/// without scale.
+/// Source: S. Umeyama: Least-Squares Estimation of Transformation Parameters, 1991, in the plane
+/// and without scale.
 pub(crate) fn rigid_motion(pairs: &[(Point, Point)]) -> Pose {
     let count = pairs.len().max(1) as f64;
     let sum = |sum: (Vector, Vector), (from, to): &(Point, Point)| {

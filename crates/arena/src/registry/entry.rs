@@ -8,8 +8,8 @@ use crate::cast::Agent;
 use crate::contest::PlaceRule;
 use crate::{BoxError, Outing};
 
-/// Facts about a system, which the command, the arena, the papers' tables, Python and the playground
-/// look up.
+/// Facts about a system, which the command, the arena, the papers' tables, Python and the
+/// playground look up.
 #[derive(Clone, Copy, Debug)]
 pub struct SystemFacts {
     /// Name as typed, in kebab case; files of maps name it too.

@@ -73,8 +73,7 @@ impl Real {
     fn patterns(&self) -> Result<&CommonPatterns, BoxError> {
         once(&self.patterns, || {
             let config = walker(&self.learning)?;
-            let learned = learn_by(&self.learning, slow_epuck(), config, LESSON, self.seed);
-            Ok(learned?)
+            learn_by(&self.learning, slow_epuck(), config, LESSON, self.seed)
         })
     }
 
