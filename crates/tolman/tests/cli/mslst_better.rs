@@ -67,7 +67,7 @@ fn a_map_that_is_unfinished_spoiled_or_of_another_maze_is_told_of() {
     let plan = ["map", "plan", "map.json", "--to", "999"];
     tolman_in(&folder, &plan).refused(2, &["no place 999"]);
     let off = [&LEARN[..], &["--set", "diameter=-1"]].concat();
-    tolman_in(&folder, &off).refused(2, &["diameter is -1"]);
+    tolman_in(&folder, &off).refused(2, &["`diameter` is -1; give a number from 0.05 to 5"]);
     let unknown = [&LEARN[..], &["--set", "patience=1"]].concat();
     tolman_in(&folder, &unknown).refused(2, &["no setting patience", "slide_sd"]);
     let text = fs::read_to_string(folder.join("map.json")).unwrap();
