@@ -57,6 +57,7 @@ mod dijkstra;
 #[cfg(feature = "alloc")]
 mod expected_costs;
 mod graph;
+pub mod lattice;
 pub mod moves;
 mod passages;
 #[cfg(feature = "alloc")]

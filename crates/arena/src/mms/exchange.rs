@@ -1,5 +1,5 @@
 use tolman_maze::{Cell, Direction, Grid};
-use tolman_systems::micromouse::mms::{Gate, LatticeHeading, LatticePoint};
+use tolman_planners::lattice::{Gate, LatticeHeading, LatticePoint, LatticePose};
 
 use super::Simulator;
 use super::simulator::eighths_of;
@@ -12,10 +12,8 @@ pub struct Exchange {
     pub line: String,
     /// Reply of the simulator; `None` for a command without a reply.
     pub reply: Option<String>,
-    /// Position of the mouse afterwards.
-    pub place: LatticePoint,
-    /// Heading of the mouse afterwards.
-    pub heading: LatticeHeading,
+    /// Pose of the mouse afterwards.
+    pub pose: LatticePose,
     /// Whether the mouse moved, turned, ran into a wall or was put back.
     pub is_movement: bool,
 }
@@ -30,8 +28,7 @@ impl Exchange {
         Self {
             line: line.trim().to_owned(),
             reply,
-            place: simulator.place(),
-            heading: simulator.heading(),
+            pose: simulator.pose(),
             is_movement,
         }
     }
@@ -71,8 +68,8 @@ impl Exchange {
         eighths: i8,
         grid: Grid,
     ) -> impl Iterator<Item = (Cell, Direction)> {
-        let heading = self.heading.turned(eighths);
-        let places = core::iter::successors(Some(self.place), move |place| {
+        let heading = self.pose.heading.turned(eighths);
+        let places = core::iter::successors(Some(self.pose.place), move |place| {
             let ends = place.gate(heading, grid) == Gate::Solid;
             (!ends).then(|| place.ahead(heading))
         });

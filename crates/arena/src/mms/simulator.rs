@@ -1,7 +1,7 @@
 //! The simulator: one command in, one reply out.
 
 use tolman_maze::{Cell, Maze};
-use tolman_systems::micromouse::mms::{Gate, LatticeHeading, LatticePoint};
+use tolman_planners::lattice::{Gate, LatticeHeading, LatticePoint, LatticePose};
 
 use super::{Score, Unit};
 
@@ -13,8 +13,7 @@ use super::{Score, Unit};
 pub struct Simulator<'a> {
     maze: &'a Maze,
     goal: Vec<Cell>,
-    place: LatticePoint,
-    heading: LatticeHeading,
+    pose: LatticePose,
     half_steps: Score,
     cells: Score,
     movements: u64,
@@ -72,8 +71,7 @@ impl<'a> Simulator<'a> {
         Self {
             maze,
             goal: maze.grid().middle().collect(),
-            place: LatticePoint::START,
-            heading: LatticeHeading::NORTH,
+            pose: LatticePose::START,
             half_steps: Score::new(Unit::HalfSteps),
             cells: Score::new(Unit::Cells),
             movements: 0,
@@ -110,7 +108,7 @@ impl<'a> Simulator<'a> {
         // What is not a number counts as 0, what is missing as 1.
         let number = || argument.map_or(1, |text| text.parse().unwrap_or(0));
         if let Some(eighths) = eighths_of(command) {
-            let heading = self.heading.turned(eighths);
+            let heading = self.pose.heading.turned(eighths);
             return Some(self.is_wall_within(number(), heading).to_string());
         }
         match (command, argument) {
@@ -140,7 +138,7 @@ impl<'a> Simulator<'a> {
 
     /// Returns whether a wall stands within `half_steps` half-steps; at least one is checked.
     fn is_wall_within(&self, half_steps: i32, heading: LatticeHeading) -> bool {
-        let mut place = self.place;
+        let mut place = self.pose.place;
         for _ in 0..half_steps.max(1) {
             if self.is_blocked(place, heading) {
                 return true;
@@ -160,11 +158,11 @@ impl<'a> Simulator<'a> {
     }
 
     fn move_on(&mut self, half_steps: i32) -> String {
-        if half_steps < 1 || self.is_blocked(self.place, self.heading) {
+        if half_steps < 1 || self.is_blocked(self.pose.place, self.pose.heading) {
             self.crashes += 1;
             return "crash".to_owned();
         }
-        let starts = self.place.cell() == LatticePoint::START.cell();
+        let starts = self.pose.place.cell() == LatticePoint::START.cell();
         for score in [&mut self.half_steps, &mut self.cells] {
             if starts {
                 score.start_run();
@@ -173,8 +171,8 @@ impl<'a> Simulator<'a> {
             score.move_on(half_steps);
         }
         let mut made = 0;
-        while made < half_steps && !self.is_blocked(self.place, self.heading) {
-            self.place = self.place.ahead(self.heading);
+        while made < half_steps && !self.is_blocked(self.pose.place, self.pose.heading) {
+            self.pose.place = self.pose.place.ahead(self.pose.heading);
             made += 1;
         }
         self.end_movement();
@@ -186,7 +184,7 @@ impl<'a> Simulator<'a> {
     }
 
     fn turn(&mut self, eighths: i8) {
-        self.heading = self.heading.turned(eighths);
+        self.pose.heading = self.pose.heading.turned(eighths);
         self.half_steps.turn();
         self.cells.turn();
         self.end_movement();
@@ -194,7 +192,7 @@ impl<'a> Simulator<'a> {
 
     fn end_movement(&mut self) {
         self.movements += 1;
-        let cell = self.place.cell();
+        let cell = self.pose.place.cell();
         for score in [&mut self.half_steps, &mut self.cells] {
             if self.goal.contains(&cell) {
                 score.finish_run();
@@ -210,8 +208,7 @@ impl<'a> Simulator<'a> {
     }
 
     fn reset(&mut self) {
-        self.place = LatticePoint::START;
-        self.heading = LatticeHeading::NORTH;
+        self.pose = LatticePose::START;
         self.half_steps.reset();
         self.cells.reset();
         if self.was_reset() {
@@ -250,16 +247,10 @@ impl<'a> Simulator<'a> {
         self.invalid
     }
 
-    /// Returns the position of the mouse, in half-steps.
+    /// Returns the pose of the mouse.
     #[must_use]
-    pub const fn place(&self) -> LatticePoint {
-        self.place
-    }
-
-    /// Returns the heading of the mouse.
-    #[must_use]
-    pub const fn heading(&self) -> LatticeHeading {
-        self.heading
+    pub const fn pose(&self) -> LatticePose {
+        self.pose
     }
 }
 

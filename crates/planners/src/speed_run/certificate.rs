@@ -1,6 +1,6 @@
-//! The independent checker. It shares no code with the search. It has its own geometry on a lattice
-//! of half cells, its own times, and an explicit graph. It searches that graph by the general
-//! Dijkstra of this crate.
+//! The independent checker. It shares no code with the search. Its geometry is the
+//! [lattice](crate::lattice) of half cells. It has its own times, and an explicit graph, which it
+//! searches by the general Dijkstra of this crate.
 
 use alloc::vec::Vec;
 
@@ -8,6 +8,7 @@ use thiserror::Error;
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
 
 use super::{RunMove, Side, Slalom, SpeedProfile, SpeedRunConfig};
+use crate::lattice::{Gate, LatticeHeading, LatticePoint, LatticePose};
 use crate::{Arcs, costs_from};
 
 /// A speed run, with the claim that none is faster.
@@ -84,11 +85,10 @@ impl SpeedRunCertificate {
         config: &SpeedRunConfig,
         goals: &[Cell],
     ) -> Result<(), SpeedRunCertificateError> {
-        let mut at = Spot::middle(self.start, self.heading);
+        let mut at = in_middle(self.start, self.heading);
         let mut actual_ms = 0;
         for (number, run_move) in self.moves.iter().copied().enumerate() {
-            let made = at
-                .moves(&|_| true, walls.grid())
+            let made = moves(at, &|_| true, walls.grid())
                 .into_iter()
                 .find(|made| made.run_move == run_move)
                 .ok_or(SpeedRunCertificateError::Impossible { number, run_move })?;
@@ -133,63 +133,45 @@ pub fn best_possible_ms(
 ) -> Option<u32> {
     let grid = walls.grid();
     let open = |point| knowledge(walls, point) != Knowledge::Wall;
-    let (columns, rows) = (
-        2 * i32::from(grid.width()) + 1,
-        2 * i32::from(grid.height()) + 1,
-    );
-    let id = |spot: Spot| (((spot.at.1 * columns + spot.at.0) * 8) + spot.eighth) as u32;
     let mut arcs = Vec::new();
     let mut ends = Vec::new();
-    for y in 0..rows {
-        for x in 0..columns {
-            for eighth in 0..8 {
-                let spot = Spot { at: (x, y), eighth };
-                if is_goal(spot, goals) {
-                    ends.push(id(spot));
-                }
-                for made in spot.moves(&open, grid) {
-                    arcs.push((id(spot), id(made.to), time_ms(made.run_move, config)));
-                }
-            }
+    for number in 0..LatticePose::count(grid) {
+        let pose = LatticePose::from_index(number, grid);
+        if is_goal(pose, goals) {
+            ends.push(number);
+        }
+        for made in moves(pose, &open, grid) {
+            arcs.push((number, made.to.index(grid), time_ms(made.run_move, config)));
         }
     }
-    let graph = Arcs::new((columns * rows * 8) as usize, &arcs);
-    let costs = costs_from(&graph, [id(Spot::middle(start, heading))]);
+    let graph = Arcs::new(LatticePose::count(grid) as usize, &arcs);
+    let costs = costs_from(&graph, [in_middle(start, heading).index(grid)]);
     ends.into_iter()
         .filter_map(|end| costs.get(end as usize).copied().flatten())
         .min()
 }
 
-/// A point of the lattice, whose unit is half a cell. Middles of cells are odd in both coordinates,
-/// middles of edges in one, posts in none.
-type Point = (i32, i32);
-
-/// Position and heading of the mouse on the lattice. Headings are numbered clockwise: 0 north, 1
-/// north-east, and so on.
-#[derive(Clone, Copy)]
-struct Spot {
-    at: Point,
-    eighth: i32,
-}
-
 struct Made {
     run_move: RunMove,
     /// Middles of the edges that the move crosses, including the edge at its end.
-    passed: Vec<Point>,
-    to: Spot,
+    passed: Vec<LatticePoint>,
+    to: LatticePose,
 }
 
-/// A turn to the right. Points are (right, ahead) of a mouse that looks north.
+/// Half-steps to the right and ahead of a mouse that looks north.
+type Offset = (i32, i32);
+
+/// A turn to the right.
 struct Template {
     slalom: Slalom,
-    passed: &'static [Point],
-    end: Point,
+    passed: &'static [Offset],
+    end: Offset,
     /// Turn in eighths of a circle.
-    turned: i32,
+    turned: i8,
 }
 
 impl Template {
-    const fn new(slalom: Slalom, passed: &'static [Point], end: Point, turned: i32) -> Self {
+    const fn new(slalom: Slalom, passed: &'static [Offset], end: Offset, turned: i8) -> Self {
         Self {
             slalom,
             passed,
@@ -215,167 +197,137 @@ const FROM_DIAGONAL: [Template; 3] = [
     Template::new(Slalom::F135, &[(1, 1), (2, 0)], (2, -1), 3),
 ];
 
-impl Spot {
-    const fn middle(cell: Cell, heading: Direction) -> Self {
-        Self {
-            at: (2 * cell.x as i32 + 1, 2 * cell.y as i32 + 1),
-            eighth: 2 * heading.index() as i32,
-        }
+/// Returns the pose in the middle of a cell.
+const fn in_middle(cell: Cell, heading: Direction) -> LatticePose {
+    LatticePose {
+        place: LatticePoint::middle_of(cell),
+        heading: LatticeHeading::towards(heading),
     }
+}
 
-    fn moves(self, open: &impl Fn(Point) -> bool, grid: Grid) -> Vec<Made> {
-        let odd = (self.at.0 & 1) + (self.at.1 & 1);
-        let mut made = Vec::new();
-        match (odd, self.eighth % 2) {
-            (2, 0) => {
-                self.straights(open, grid, 2, &mut made);
-                for template in &FROM_STRAIGHT {
-                    self.turn(template, Side::Right, open, &mut made);
-                    self.turn(template, Side::Left, open, &mut made);
-                }
+/// Returns the moves that can be made from a pose on edges whose middles are `open`.
+fn moves(from: LatticePose, open: &impl Fn(LatticePoint) -> bool, grid: Grid) -> Vec<Made> {
+    let LatticePose { place, heading } = from;
+    let mut made = Vec::new();
+    match (place.x % 2 + place.y % 2, heading.index() % 2) {
+        (2, 0) => {
+            straights(from, open, grid, &mut made);
+            for template in &FROM_STRAIGHT {
+                made.extend(turn(from, template, Side::Right, open));
+                made.extend(turn(from, template, Side::Left, open));
             }
-            (1, 1) => {
-                self.straights(open, grid, 1, &mut made);
-                // On a southern edge and looking north-east, a mouse turns right; every eighth of a
-                // turn more, and the other kind of edge, change that.
-                let on_horizontal = self.at.0 & 1;
-                let side = if (self.eighth / 2 + on_horizontal) % 2 == 1 {
-                    Side::Right
-                } else {
-                    Side::Left
-                };
-                for template in &FROM_DIAGONAL {
-                    self.turn(template, side, open, &mut made);
-                }
-            }
-            _ => {}
         }
-        made
-    }
-
-    /// Adds to `made` the straights of 1, 2, … cells. Each cell of a straight takes `steps` steps
-    /// along the heading.
-    fn straights(
-        self,
-        open: &impl Fn(Point) -> bool,
-        grid: Grid,
-        steps: i32,
-        made: &mut Vec<Made>,
-    ) {
-        let (east, north) = step(self.eighth);
-        let mut passed = Vec::new();
-        for cells in 1..=2 * grid.width().max(grid.height()) {
-            let far = |steps: i32| (self.at.0 + east * steps, self.at.1 + north * steps);
-            // From the middle of a cell one crosses an edge on the way, from an edge at the end.
-            let edge = far(steps * (i32::from(cells) - 1) + 1);
-            if !open(edge) {
-                return;
-            }
-            passed.push(edge);
-            let to = Self {
-                at: far(steps * i32::from(cells)),
-                eighth: self.eighth,
-            };
-            let run_move = if steps == 2 {
-                RunMove::Straight { cells }
+        (1, 1) => {
+            straights(from, open, grid, &mut made);
+            // On a southern edge and looking north-east, a mouse turns right; every eighth of a
+            // turn more, and the other kind of edge, change that.
+            let side = if (heading.index() / 2 + place.x) % 2 == 1 {
+                Side::Right
             } else {
-                RunMove::Diagonal { cells }
+                Side::Left
             };
-            if to.leads_on(open) {
-                made.push(Made {
-                    run_move,
-                    passed: passed.clone(),
-                    to,
-                });
+            for template in &FROM_DIAGONAL {
+                made.extend(turn(from, template, side, open));
             }
         }
+        _ => {}
     }
+    made
+}
 
-    fn turn(
-        self,
-        template: &Template,
-        side: Side,
-        open: &impl Fn(Point) -> bool,
-        made: &mut Vec<Made>,
-    ) {
-        let place = |(right, ahead): Point| {
-            // The templates of diagonals look north-east: mirrored on that line, not on north.
-            let (x, y) = match (side, self.eighth % 2) {
-                (Side::Right, _) => (right, ahead),
-                (Side::Left, 0) => (-right, ahead),
-                (Side::Left, _) => (ahead, right),
-            };
-            let (x, y) = match self.eighth / 2 {
-                0 => (x, y),
-                1 => (y, -x),
-                2 => (-x, -y),
-                _ => (-y, x),
-            };
-            (self.at.0 + x, self.at.1 + y)
+/// Adds to `made` the straights of 1, 2, … cells.
+fn straights(
+    from: LatticePose,
+    open: &impl Fn(LatticePoint) -> bool,
+    grid: Grid,
+    made: &mut Vec<Made>,
+) {
+    let heading = from.heading;
+    let mut place = from.place;
+    let mut passed = Vec::new();
+    for cells in 1..=2 * grid.width().max(grid.height()) {
+        // From the middle of a cell one crosses an edge on the way, from an edge at the end.
+        let edge = place.ahead(heading);
+        if !open(edge) {
+            return;
+        }
+        passed.push(edge);
+        let (run_move, end) = if heading.side().is_some() {
+            (RunMove::Straight { cells }, edge.ahead(heading))
+        } else {
+            (RunMove::Diagonal { cells }, edge)
         };
-        let turned = match side {
-            Side::Right => template.turned,
-            Side::Left => -template.turned,
-        };
-        let to = Self {
-            at: place(template.end),
-            eighth: (self.eighth + turned).rem_euclid(8),
-        };
-        let passed: Vec<Point> = template.passed.iter().map(|point| place(*point)).collect();
-        if passed.iter().all(|point| open(*point)) && to.leads_on(open) {
+        place = end;
+        let to = LatticePose { place, heading };
+        if leads_on(to, open) {
             made.push(Made {
-                run_move: RunMove::Turn {
-                    slalom: template.slalom,
-                    side,
-                },
-                passed,
+                run_move,
+                passed: passed.clone(),
                 to,
             });
         }
     }
-
-    /// Returns whether a state leads on: on a diagonal the next edge has to be open, as there is no
-    /// stopping on an edge.
-    fn leads_on(self, open: &impl Fn(Point) -> bool) -> bool {
-        let (east, north) = step(self.eighth);
-        self.eighth % 2 == 0 || open((self.at.0 + east, self.at.1 + north))
-    }
 }
 
-const fn step(eighth: i32) -> Point {
-    match eighth {
-        0 => (0, 1),
-        1 => (1, 1),
-        2 => (1, 0),
-        3 => (1, -1),
-        4 => (0, -1),
-        5 => (-1, -1),
-        6 => (-1, 0),
-        _ => (-1, 1),
-    }
+/// Returns the turn that a template describes, if it can be made.
+fn turn(
+    from: LatticePose,
+    template: &Template,
+    side: Side,
+    open: &impl Fn(LatticePoint) -> bool,
+) -> Option<Made> {
+    let place = |(right, ahead): Offset| {
+        // The templates of diagonals look north-east: mirrored on that line, not on north.
+        let (x, y) = match (side, from.heading.side()) {
+            (Side::Right, _) => (right, ahead),
+            (Side::Left, Some(_)) => (-right, ahead),
+            (Side::Left, None) => (ahead, right),
+        };
+        from.place.moved(match from.heading.index() / 2 {
+            0 => (x, y),
+            1 => (y, -x),
+            2 => (-x, -y),
+            _ => (-y, x),
+        })
+    };
+    let turned = match side {
+        Side::Right => template.turned,
+        Side::Left => -template.turned,
+    };
+    let to = LatticePose {
+        place: place(template.end),
+        heading: from.heading.turned(turned),
+    };
+    let passed: Vec<LatticePoint> = template.passed.iter().map(|point| place(*point)).collect();
+    let is_possible = passed.iter().all(|point| open(*point)) && leads_on(to, open);
+    is_possible.then_some(Made {
+        run_move: RunMove::Turn {
+            slalom: template.slalom,
+            side,
+        },
+        passed,
+        to,
+    })
 }
 
-fn is_goal(spot: Spot, goals: &[Cell]) -> bool {
-    let middle = |goal: &Cell| (2 * i32::from(goal.x) + 1, 2 * i32::from(goal.y) + 1);
-    spot.eighth % 2 == 0 && goals.iter().any(|goal| middle(goal) == spot.at)
+/// Returns whether a state leads on: on a diagonal the next edge has to be open, as there is no
+/// stopping on an edge.
+fn leads_on(pose: LatticePose, open: &impl Fn(LatticePoint) -> bool) -> bool {
+    pose.heading.side().is_some() || open(pose.place.ahead(pose.heading))
+}
+
+fn is_goal(pose: LatticePose, goals: &[Cell]) -> bool {
+    let is_there = |goal: &Cell| LatticePoint::middle_of(*goal) == pose.place;
+    pose.heading.side().is_some() && goals.iter().any(is_there)
 }
 
 /// Returns the knowledge of the wall whose middle is `point`.
-fn knowledge(walls: &impl Walls, (x, y): Point) -> Knowledge {
-    // The cell south-west of the middle of an edge, which is its western or southern side.
-    let (Ok(column), Ok(row)) = (u16::try_from((x - 1) / 2), u16::try_from((y - 1) / 2)) else {
-        return Knowledge::Wall;
-    };
-    let cell = Cell::new(column, row);
-    if x <= 0 || y <= 0 || !walls.grid().contains(cell) {
-        return Knowledge::Wall;
+fn knowledge(walls: &impl Walls, point: LatticePoint) -> Knowledge {
+    match point.obstacle(walls.grid()) {
+        Gate::Edge(cell, side) => walls.knowledge(cell, side),
+        Gate::None => Knowledge::Open,
+        Gate::Solid => Knowledge::Wall,
     }
-    let direction = if x & 1 == 0 {
-        Direction::East
-    } else {
-        Direction::North
-    };
-    walls.knowledge(cell, direction)
 }
 
 fn time_ms(run_move: RunMove, config: &SpeedRunConfig) -> u32 {

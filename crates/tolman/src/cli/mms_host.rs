@@ -179,21 +179,20 @@ fn of_mms(maze: &Maze) -> Maze {
 /// Returns a movement as a step to show.
 fn way_step(exchange: &Exchange, sensed: &[SideSeen]) -> WayStep {
     let Exchange {
-        line,
-        reply,
-        place,
-        heading,
-        ..
+        line, reply, pose, ..
     } = exchange;
-    let clockwise = f64::from(heading.index()) * FRAC_PI_4;
+    let clockwise = f64::from(pose.heading.index()) * FRAC_PI_4;
     let heading = Heading::from_radians(FRAC_PI_2 - clockwise);
-    let cell = place.cell();
+    let cell = pose.place.cell();
     let seen = sensed.iter().map(|seen| {
         let SideSeen { cell, side, stands } = seen;
         json!({ "cell": { "x": cell.x, "y": cell.y }, "side": side.to_string(), "wall": stands })
     });
     WayStep {
-        pose: Pose::new(half_cells(place.x.into(), place.y.into()), heading),
+        pose: Pose::new(
+            half_cells(pose.place.x.into(), pose.place.y.into()),
+            heading,
+        ),
         words: line.clone(),
         line: json!({
             "move": line,

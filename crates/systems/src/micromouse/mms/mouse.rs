@@ -4,12 +4,13 @@ use std::io::{BufRead, Write};
 
 use tolman_maps::wall_map::{CellRay, ClosedCells, WallMap};
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
+use tolman_planners::lattice::{LatticeHeading, LatticePoint, LatticePose};
 use tolman_planners::{Passages, StepMap, TooLarge, Unknown, costs_from};
 
+use super::PlayError;
 use super::link::{Driven, Link};
 use super::plan::{Plan, ends_run, plan, score};
-use super::roads::{Roads, Stand, TurnsAtStart};
-use super::{LatticeHeading, LatticePoint, PlayError};
+use super::roads::{Roads, TurnsAtStart};
 use crate::micromouse::Until;
 
 /// Result of a game.
@@ -63,7 +64,7 @@ struct Mouse<const N: usize, R, W, L> {
     until: Until,
     walls: WallMap<N>,
     goals: Vec<Cell>,
-    at: Stand,
+    at: LatticePose,
     /// Best run that could be hoped for at the last planning.
     hoped: Option<Plan>,
     goal: Goal,
@@ -93,7 +94,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
             until,
             walls: WallMap::new(grid, ClosedCells::Possible)?,
             goals: grid.middle().collect(),
-            at: Stand::START,
+            at: LatticePose::START,
             hoped: None,
             goal: Goal::Ahead,
             crashes: 0,
@@ -247,10 +248,12 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
     fn best_run(&self, unknown: Unknown) -> Result<Option<Plan>, TooLarge> {
         let passages = Passages::<N>::new(&self.walls, unknown)?;
         let roads = Roads::new(self.walls.grid(), &passages, TurnsAtStart::Free);
-        Ok(plan(&roads, Stand::START, |stand| self.is_goal(stand)))
+        Ok(plan(&roads, LatticePose::START, |stand| {
+            self.is_goal(stand)
+        }))
     }
 
-    fn is_goal(&self, stand: Stand) -> bool {
+    fn is_goal(&self, stand: LatticePose) -> bool {
         ends_run(stand, &self.goals)
     }
 
@@ -266,7 +269,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
             let headings = (0..8).map(LatticeHeading::from_index);
             let nodes = headings.map(|heading| {
                 let place = LatticePoint::middle_of(cell);
-                roads.node(Stand { place, heading })
+                roads.node(LatticePose { place, heading })
             });
             nodes
                 .filter_map(|node| costs.get(node as usize).copied().flatten())
@@ -300,7 +303,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
     }
 
     /// Drives from stand to stand. The first one is at most a turn away.
-    fn follow(&mut self, stands: &[Stand]) -> Result<Course, PlayError> {
+    fn follow(&mut self, stands: &[LatticePose]) -> Result<Course, PlayError> {
         for stand in stands {
             if self.link.truth("wasReset")? {
                 self.say("reset")?;
@@ -326,13 +329,13 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
 
     fn go_back(&mut self) -> Result<Course, PlayError> {
         self.link.acknowledged("ackReset")?;
-        self.at = Stand::START;
+        self.at = LatticePose::START;
         self.resets += 1;
         Ok(Course::Lost)
     }
 
     /// Makes one movement: a turn, or a straight.
-    fn go(&mut self, to: Stand) -> Result<Driven, PlayError> {
+    fn go(&mut self, to: LatticePose) -> Result<Driven, PlayError> {
         while self.at.heading != to.heading {
             let left = (to.heading.index() + 8 - self.at.heading.index()) % 8;
             let (command, eighths) = match left {

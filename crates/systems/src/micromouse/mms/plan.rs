@@ -1,8 +1,8 @@
 use tolman_maze::{Cell, Direction, Grid, Walls};
+use tolman_planners::lattice::{LatticePoint, LatticePose};
 use tolman_planners::{Found, Passages, TooLarge, Unknown, a_star};
 
-use super::LatticePoint;
-use super::roads::{Roads, Stand, TurnsAtStart, edges};
+use super::roads::{Roads, TurnsAtStart, edges};
 
 /// Returns the score of the best run to the middle of a maze of at most 32 × 32 cells, in
 /// half-steps. The tenth of all movements is not part of it. Unknown walls count as standing.
@@ -15,20 +15,20 @@ pub fn best_score(walls: &impl Walls) -> Result<Option<f32>, TooLarge> {
     let passages = Passages::<32>::new(walls, Unknown::Closed)?;
     let roads = Roads::new(grid, &passages, TurnsAtStart::Free);
     let goals: Vec<Cell> = grid.middle().collect();
-    let run = plan(&roads, Stand::START, |stand| ends_run(stand, &goals));
+    let run = plan(&roads, LatticePose::START, |stand| ends_run(stand, &goals));
     Ok(run.map(|run| score(run.cost)))
 }
 
 /// Returns whether a movement that ends at a stand ends a run. In the smallest mazes the start lies
 /// in the middle as well.
-pub(super) fn ends_run(stand: Stand, goals: &[Cell]) -> bool {
+pub(super) fn ends_run(stand: LatticePose, goals: &[Cell]) -> bool {
     stand.place != LatticePoint::START && goals.contains(&stand.place.cell())
 }
 
 /// A plan: stands one movement apart, and the cost of the movements, in halves.
 #[derive(Clone, Debug)]
 pub(super) struct Plan {
-    pub(super) stands: Vec<Stand>,
+    pub(super) stands: Vec<LatticePose>,
     pub(super) cost: u32,
 }
 
@@ -44,8 +44,8 @@ impl Plan {
 /// Returns the cheapest way from `from` to a stand for which `is_goal` is true.
 pub(super) fn plan<const N: usize>(
     roads: &Roads<'_, N>,
-    from: Stand,
-    is_goal: impl Fn(Stand) -> bool,
+    from: LatticePose,
+    is_goal: impl Fn(LatticePose) -> bool,
 ) -> Option<Plan> {
     let Found { path, cost, .. } = a_star(
         roads,

@@ -1,24 +1,8 @@
 //! Movements of a mouse of mms, with their costs in the score.
 
 use tolman_maze::{Cell, Direction, Grid};
+use tolman_planners::lattice::{Gate, LatticeHeading, LatticePoint, LatticePose};
 use tolman_planners::{Graph, Passages};
-
-use super::{Gate, LatticeHeading, LatticePoint};
-
-/// A place and a heading: the beginning or end of a movement.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Stand {
-    pub(super) place: LatticePoint,
-    pub(super) heading: LatticeHeading,
-}
-
-impl Stand {
-    /// Start of every mouse of mms.
-    pub(super) const START: Self = Self {
-        place: LatticePoint::START,
-        heading: LatticeHeading::NORTH,
-    };
-}
 
 /// All movements on some passages: turns in place by 45° and 90°, and straights, which may be
 /// diagonal. Costs are those of the score, counted in halves of a half-step.
@@ -59,23 +43,12 @@ impl<'a, const N: usize> Roads<'a, N> {
         }
     }
 
-    const fn columns(&self) -> u32 {
-        2 * self.grid.width() as u32 + 1
+    pub(super) const fn node(&self, stand: LatticePose) -> u32 {
+        stand.index(self.grid)
     }
 
-    pub(super) const fn node(&self, stand: Stand) -> u32 {
-        (stand.place.y * self.columns() + stand.place.x) * 8 + stand.heading.index()
-    }
-
-    pub(super) const fn stand(&self, node: u32) -> Stand {
-        let place = node / 8;
-        Stand {
-            place: LatticePoint {
-                x: place % self.columns(),
-                y: place / self.columns(),
-            },
-            heading: LatticeHeading::from_index(node % 8),
-        }
+    pub(super) const fn stand(&self, node: u32) -> LatticePose {
+        LatticePose::from_index(node, self.grid)
     }
 
     fn is_open(&self, place: LatticePoint, heading: LatticeHeading) -> bool {
@@ -89,12 +62,11 @@ impl<'a, const N: usize> Roads<'a, N> {
 
 impl<const N: usize> Graph for Roads<'_, N> {
     fn node_count(&self) -> usize {
-        let rows = 2 * usize::from(self.grid.height()) + 1;
-        self.columns() as usize * rows * 8
+        LatticePose::count(self.grid) as usize
     }
 
     fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
-        let Stand { place, heading } = self.stand(node);
+        let LatticePose { place, heading } = self.stand(node);
         let mut ahead = place;
         for half_steps in 1.. {
             if !self.is_open(ahead, heading) {
@@ -102,19 +74,26 @@ impl<const N: usize> Graph for Roads<'_, N> {
             }
             ahead = ahead.ahead(heading);
             let place = ahead;
-            visit(self.node(Stand { place, heading }), straight(half_steps));
+            visit(
+                self.node(LatticePose { place, heading }),
+                straight(half_steps),
+            );
         }
         let free = self.at_start == TurnsAtStart::Free && place == LatticePoint::START;
         for eighths in [-2, -1, 1, 2] {
             let heading = heading.turned(eighths);
             let cost = if free { 0 } else { TURN };
-            visit(self.node(Stand { place, heading }), cost);
+            visit(self.node(LatticePose { place, heading }), cost);
         }
     }
 }
 
 /// Returns the sides of cells over which a straight leads from one place to another.
-pub(super) fn edges(grid: Grid, from: Stand, to: Stand) -> impl Iterator<Item = (Cell, Direction)> {
+pub(super) fn edges(
+    grid: Grid,
+    from: LatticePose,
+    to: LatticePose,
+) -> impl Iterator<Item = (Cell, Direction)> {
     let mut place = from.place;
     core::iter::from_fn(move || {
         (place != to.place).then(|| {

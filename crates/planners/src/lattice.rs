@@ -1,4 +1,4 @@
-//! Positions of a mouse of mms: a lattice of half-steps.
+//! Positions of a mouse on a lattice of half-steps, half a cell each.
 
 use tolman_maze::{Cell, Direction, Grid};
 
@@ -13,7 +13,7 @@ pub struct LatticePoint {
 }
 
 impl LatticePoint {
-    /// The middle of the south-west cell, where every mouse of mms starts.
+    /// The middle of the south-west cell.
     pub const START: Self = Self { x: 1, y: 1 };
 
     /// Returns the cell of the point; on a wall, the cell to its north or east.
@@ -25,7 +25,13 @@ impl LatticePoint {
     /// Returns the place half a step on.
     #[must_use]
     pub const fn ahead(self, heading: LatticeHeading) -> Self {
-        let (east, north) = heading.half_step();
+        self.moved(heading.half_step())
+    }
+
+    /// Returns the point that lies some half-steps to the east and to the north. Points in the west
+    /// and south of the lattice are farther away than any cell.
+    #[must_use]
+    pub const fn moved(self, (east, north): (i32, i32)) -> Self {
         Self {
             x: self.x.wrapping_add_signed(east),
             y: self.y.wrapping_add_signed(north),
@@ -35,12 +41,18 @@ impl LatticePoint {
     /// Returns the obstacle half a step ahead of a mouse.
     #[must_use]
     pub fn gate(self, heading: LatticeHeading, grid: Grid) -> Gate {
-        let Self { x, y } = self.ahead(heading);
+        self.ahead(heading).obstacle(grid)
+    }
+
+    /// Returns the obstacle at this point.
+    #[must_use]
+    pub fn obstacle(self, grid: Grid) -> Gate {
+        let Self { x, y } = self;
         let inside = |at: u32, cells: u16| at > 0 && at < 2 * u32::from(cells);
         if !inside(x, grid.width()) || !inside(y, grid.height()) {
             return Gate::Solid;
         }
-        let cell = Self { x, y }.cell();
+        let cell = self.cell();
         match (x % 2, y % 2) {
             (0, 0) => Gate::Solid,
             (0, _) => Gate::Edge(cell, Direction::West),
@@ -59,10 +71,10 @@ impl LatticePoint {
     }
 }
 
-/// Obstacle half a step ahead of a position.
+/// Obstacle at a point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gate {
-    /// None: the position ahead is the middle of a cell.
+    /// None: the point is the middle of a cell.
     None,
     /// The side of a cell, with a wall or without.
     Edge(Cell, Direction),
@@ -70,13 +82,12 @@ pub enum Gate {
     Solid,
 }
 
-/// One of the eight directions in which a mouse of mms can look: eighths of a circle, clockwise
-/// from north.
+/// One of the eight directions on the lattice: eighths of a circle, clockwise from north.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LatticeHeading(u8);
 
 impl LatticeHeading {
-    /// Heading of every mouse at the start.
+    /// The heading to the north.
     pub const NORTH: Self = Self(0);
 
     /// Returns the heading turned clockwise by `eighths` eighths of a circle.
@@ -97,6 +108,12 @@ impl LatticeHeading {
         }
     }
 
+    /// Returns the heading towards a side of a cell.
+    #[must_use]
+    pub const fn towards(side: Direction) -> Self {
+        Self(2 * side.index() as u8)
+    }
+
     /// Returns the heading's number: 0 for north, then clockwise by eighths.
     #[must_use]
     pub const fn index(self) -> u32 {
@@ -110,7 +127,8 @@ impl LatticeHeading {
     }
 
     /// Returns the displacement of half a step in that direction, to the east and to the north.
-    const fn half_step(self) -> (i32, i32) {
+    #[must_use]
+    pub const fn half_step(self) -> (i32, i32) {
         match self.0 {
             0 => (0, 1),
             1 => (1, 1),
@@ -122,4 +140,50 @@ impl LatticeHeading {
             _ => (-1, 1),
         }
     }
+}
+
+/// A place and a heading: the beginning or end of a movement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LatticePose {
+    /// Place of the mouse.
+    pub place: LatticePoint,
+    /// Heading of the mouse.
+    pub heading: LatticeHeading,
+}
+
+impl LatticePose {
+    /// The pose in the south-west cell, looking north, where every mouse of mms starts.
+    pub const START: Self = Self {
+        place: LatticePoint::START,
+        heading: LatticeHeading::NORTH,
+    };
+
+    /// Returns the number of poses on the lattice of a grid.
+    #[must_use]
+    pub const fn count(grid: Grid) -> u32 {
+        columns(grid) * (2 * grid.height() as u32 + 1) * 8
+    }
+
+    /// Returns the number of the pose on the lattice of a grid, below [`LatticePose::count`].
+    #[must_use]
+    pub const fn index(self, grid: Grid) -> u32 {
+        (self.place.y * columns(grid) + self.place.x) * 8 + self.heading.index()
+    }
+
+    /// Returns the pose with this [`LatticePose::index`].
+    #[must_use]
+    pub const fn from_index(index: u32, grid: Grid) -> Self {
+        let place = index / 8;
+        Self {
+            place: LatticePoint {
+                x: place % columns(grid),
+                y: place / columns(grid),
+            },
+            heading: LatticeHeading::from_index(index % 8),
+        }
+    }
+}
+
+const fn columns(grid: Grid) -> u32 {
+    2 * grid.width() as u32 + 1
 }
