@@ -79,9 +79,20 @@ pub fn try_on(
     maze: &Maze,
     searcher: Searcher,
     seed: u64,
+    see: impl FnMut(&RefereedStep),
+) -> Result<(MouseTrial, Judgement), BoxError> {
+    send(maze, searcher.mouse(&brief(maze)?, seed)?, see)
+}
+
+/// Sends a mouse through `maze` and judges it. Calls `see` with every step as soon as it is made.
+///
+/// # Errors
+/// If the mouse cannot run in the maze.
+pub fn send(
+    maze: &Maze,
+    mut mouse: Driver<impl Search>,
     mut see: impl FnMut(&RefereedStep),
 ) -> Result<(MouseTrial, Judgement), BoxError> {
-    let mut mouse = searcher.mouse(&brief(maze)?, seed)?;
     let trial = MouseTrial::play(maze, &mut mouse, |step, _| see(step))?;
     let judgement = Judgement::of(maze, &mouse, &trial).map_err(MouseError::from)?;
     Ok((trial, judgement))

@@ -41,7 +41,7 @@ mod referee;
 mod trial;
 
 pub use certificate::{CertificateError, check};
-pub use judgement::{Judgement, floor, try_on};
+pub use judgement::{Judgement, floor, send, try_on};
 pub use q_learning::CellTask;
 pub use referee::{MAX_STEPS, Referee, RefereeError, Ruling, ScoreSheet, brief};
 pub use trial::{MouseTrial, RefereedStep, SideSeen, sides_seen};

@@ -4,8 +4,7 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::Point;
 use tolman_maps::wall_map::WallMap;
-use tolman_maze::{Cell, Direction, Grid, Knowledge, Maze, Walls};
-use tolman_planners::moves::{MoveExplorerConfig, MoveMap, RolloutConfig};
+use tolman_maze::{Cell, Direction, Knowledge, Maze, Walls};
 use tolman_planners::{Passages, TooLarge, Unknown};
 
 use super::Micromouse;
@@ -102,8 +101,7 @@ fn open_and_closed(maze: &Maze) -> Result<Option<Figure>, BoxError> {
     let Some((start, _)) = maze.start() else {
         return Ok(None);
     };
-    let (explorer, rollouts) = (MoveExplorerConfig::tuned(), RolloutConfig::tuned());
-    let search = Certify::new(explorer, Some(rollouts), maze.grid(), start)?;
+    let search = Certify::tuned(maze.grid(), start)?;
     let mut mouse = Driver::new(brief(maze)?, search, RunTwo::FewestMoves)?;
     let (mut steps, mut explores, mut found) = (0, true, None);
     MouseTrial::play(maze, &mut mouse, |step, mouse| {
@@ -143,8 +141,8 @@ fn run(
     start: Cell,
 ) -> Result<Vec<Point>, TooLarge> {
     let passages = Passages::<SIDE>::new(map, unknown)?;
-    let moves = MoveMap::new(&passages, maze.goals().iter().copied());
-    let stops = moves.way(&passages, start).map(|leap| middle(leap.end));
+    let plan = RunTwo::FewestMoves.plan(&passages, start, maze.goals());
+    let stops = plan.into_iter().flatten().map(|leap| middle(leap.end));
     Ok(core::iter::once(middle(start)).chain(stops).collect())
 }
 
@@ -168,17 +166,15 @@ fn middle(cell: Cell) -> Point {
 
 /// Returns the walls that are known to stand, in cells.
 fn walls(map: &WallMap<SIDE>) -> Vec<[Point; 2]> {
-    let grid: Grid = map.grid();
-    let sides = grid.cells().flat_map(|cell| {
-        let south = (cell.y == 0).then_some(Direction::South);
-        let west = (cell.x == 0).then_some(Direction::West);
-        [Some(Direction::North), Some(Direction::East), south, west]
-            .into_iter()
-            .flatten()
-            .map(move |side| (cell, side))
-    });
+    let grid = map.grid();
+    let sides = grid
+        .cells()
+        .flat_map(|cell| Direction::ALL.map(|side| (cell, side)));
+    let once = |cell, side| {
+        matches!(side, Direction::North | Direction::East) || grid.neighbour(cell, side).is_none()
+    };
     sides
-        .filter(|(cell, side)| map.knowledge(*cell, *side) == Knowledge::Wall)
+        .filter(|(cell, side)| once(*cell, *side) && map.knowledge(*cell, *side) == Knowledge::Wall)
         .map(|(cell, side)| {
             let (x, y) = (f64::from(cell.x), f64::from(cell.y));
             let (from, to) = match side {

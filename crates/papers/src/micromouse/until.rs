@@ -1,11 +1,11 @@
 //! The classic set, with three seeds per maze, for two ways to stop exploring: with a proof, or
 //! when further looks no longer pay.
 
-use tolman_arena::micromouse::{Judgement, MouseTrial, brief};
+use tolman_arena::micromouse::{self, Judgement, brief};
 use tolman_experiment::{BoxError, Fields, Job, Record, Row, Table};
 use tolman_maze::Maze;
 use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig, WorthConfig};
-use tolman_systems::micromouse::{Certify, Driver, MouseError, RunTwo, Until};
+use tolman_systems::micromouse::{Certify, Driver, RunTwo, Until};
 
 use super::SetRun;
 use super::sets::MazeSet;
@@ -55,14 +55,8 @@ fn judged(maze: &Maze, until: Until, seed: u64) -> Result<Judgement, BoxError> {
     let explorer = MoveExplorerConfig::tuned();
     let mut rollouts = RolloutConfig::tuned();
     rollouts.seed = seed;
-    let (grid, start) = (brief.grid, brief.start);
-    let search = match until {
-        Until::Worth => {
-            Certify::until_worth(explorer, rollouts, WorthConfig::tuned(), grid, start)?
-        }
-        _ => Certify::new(explorer, Some(rollouts), grid, start)?,
-    };
-    let mut mouse = Driver::new(brief, search, RunTwo::FewestMoves)?;
-    let trial = MouseTrial::play(maze, &mut mouse, |_, _| {})?;
-    Ok(Judgement::of(maze, &mouse, &trial).map_err(MouseError::from)?)
+    let worth = (until == Until::Worth).then(WorthConfig::tuned);
+    let search = Certify::new(explorer, Some(rollouts), worth, brief.grid, brief.start)?;
+    let mouse = Driver::new(brief, search, RunTwo::FewestMoves)?;
+    Ok(micromouse::send(maze, mouse, |_| {})?.1)
 }

@@ -1,10 +1,11 @@
 use tolman_planners::TooLarge;
 use tolman_planners::moves::{
-    MoveDecision, MoveExplorer, MoveExplorerConfig, RolloutConfig, Rollouts, WorthConfig,
+    MoveDecision, MoveExplorer, MoveExplorerConfig, MoveExplorerConfigError, RolloutConfig,
+    Rollouts, WorthConfig,
 };
 
+use super::SIDE;
 use super::driver::{Next, Search, SearchView};
-use super::{MouseError, SIDE};
 use tolman_maze::{Cell, Grid};
 
 /// Explores until the best run is known for certain: see [`MoveExplorer`] and [`Rollouts`].
@@ -22,50 +23,49 @@ enum Explorer {
 
 impl Certify {
     /// Returns a search in a maze of the size of `grid`, for runs from `start`, by a mouse without
-    /// observations. `rollouts` is `None` to search without rollouts.
+    /// observations. `rollouts` is `None` to search without rollouts. With a `worth`, a search with
+    /// rollouts stops as soon as the rest of the proof is expected to cost more than it gains.
     ///
     /// # Errors
     /// If a weight is out of its range.
     pub fn new(
         explorer: MoveExplorerConfig,
         rollouts: Option<RolloutConfig>,
+        worth: Option<WorthConfig>,
         grid: Grid,
         start: Cell,
-    ) -> Result<Self, MouseError> {
+    ) -> Result<Self, MoveExplorerConfigError> {
         let is_small = grid.width().max(grid.height()) <= 16;
         Ok(Self(match rollouts {
             None => Explorer::Plain(MoveExplorer::new(explorer, start)?),
-            Some(rollouts) if is_small => Explorer::Small(Rollouts::new(
-                MoveExplorer::new(explorer, start)?,
-                rollouts,
-            )?),
-            Some(rollouts) => Explorer::Large(Rollouts::new(
-                MoveExplorer::new(explorer, start)?,
-                rollouts,
-            )?),
+            Some(rollouts) if is_small => {
+                Explorer::Small(with_rollouts(explorer, rollouts, worth, start)?)
+            }
+            Some(rollouts) => Explorer::Large(with_rollouts(explorer, rollouts, worth, start)?),
         }))
     }
-}
 
-impl Certify {
-    /// Returns the same search with rollouts. It stops as soon as the rest of the proof is expected
-    /// to cost more than it gains.
+    /// Returns the tuned search with rollouts until the proof, in a maze of the size of `grid`, for
+    /// runs from `start`.
     ///
     /// # Errors
     /// If a weight is out of its range.
-    pub fn until_worth(
-        explorer: MoveExplorerConfig,
-        rollouts: RolloutConfig,
-        worth: WorthConfig,
-        grid: Grid,
-        start: Cell,
-    ) -> Result<Self, MouseError> {
-        let Self(search) = Self::new(explorer, Some(rollouts), grid, start)?;
-        Ok(Self(match search {
-            Explorer::Plain(search) => Explorer::Plain(search),
-            Explorer::Small(search) => Explorer::Small(search.until_worth(worth)?),
-            Explorer::Large(search) => Explorer::Large(search.until_worth(worth)?),
-        }))
+    pub fn tuned(grid: Grid, start: Cell) -> Result<Self, MoveExplorerConfigError> {
+        let (explorer, rollouts) = (MoveExplorerConfig::tuned(), RolloutConfig::tuned());
+        Self::new(explorer, Some(rollouts), None, grid, start)
+    }
+}
+
+fn with_rollouts<const N: usize>(
+    explorer: MoveExplorerConfig,
+    rollouts: RolloutConfig,
+    worth: Option<WorthConfig>,
+    start: Cell,
+) -> Result<Rollouts<N>, MoveExplorerConfigError> {
+    let rollouts = Rollouts::new(MoveExplorer::new(explorer, start)?, rollouts)?;
+    match worth {
+        Some(worth) => rollouts.until_worth(worth),
+        None => Ok(rollouts),
     }
 }
 

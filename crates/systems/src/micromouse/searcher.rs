@@ -71,22 +71,20 @@ impl Searcher {
     /// If the maze is too large.
     pub fn mouse(self, brief: &Brief, seed: u64) -> Result<Driver<Box<dyn Search>>, MouseError> {
         let rng = ChaCha8Rng::seed_from_u64(seed);
-        let certify = |rollouts| {
+        let certify = |rollouts, worth| {
             let explorer = MoveExplorerConfig::tuned();
-            Certify::new(explorer, rollouts, brief.grid, brief.start)
+            Certify::new(explorer, rollouts, worth, brief.grid, brief.start)
         };
         let (search, run_two): (Box<dyn Search>, _) = match self {
             Self::Certify => {
-                let search = certify(Some(RolloutConfig::tuned()))?;
+                let search = Certify::tuned(brief.grid, brief.start)?;
                 (Box::new(search), RunTwo::FewestMoves)
             }
             Self::CertifyWorth => {
-                let (explorer, worth) = (MoveExplorerConfig::tuned(), WorthConfig::tuned());
-                let (rollouts, grid) = (RolloutConfig::tuned(), brief.grid);
-                let search = Certify::until_worth(explorer, rollouts, worth, grid, brief.start)?;
+                let search = certify(Some(RolloutConfig::tuned()), Some(WorthConfig::tuned()))?;
                 (Box::new(search), RunTwo::FewestMoves)
             }
-            Self::CertifyPlain => (Box::new(certify(None)?), RunTwo::FewestMoves),
+            Self::CertifyPlain => (Box::new(certify(None, None)?), RunTwo::FewestMoves),
             Self::Target => (Box::new(TargetSearch::new()), RunTwo::FewestCells),
             Self::Counter50 => (Box::new(CounterSearch::new(50, rng)), RunTwo::FewestCells),
             Self::Counter75 => (Box::new(CounterSearch::new(75, rng)), RunTwo::FewestCells),

@@ -10,6 +10,7 @@ use tolman_planners::moves::{
 use tolman_planners::{Passages, Unknown};
 use tolman_robot::{Bumps, Ranges, Robot, Rolls, Standing, TurnTranslate};
 
+use super::system::{Choice, give_up};
 use super::{MotionSource, NoisyMouseConfig, NoisyMouseError, PoseSource};
 use crate::micromouse::{Brief, SIDE};
 
@@ -137,15 +138,15 @@ impl NoisyMouse {
     /// # Errors
     /// If the robot fails.
     pub fn explore<R: NoisyBody>(&mut self, robot: &mut R) -> Result<Standing, R::Error> {
-        match self.unless_stuck(MoveDecision::Stuck, Self::decide) {
-            MoveDecision::Drive(leap) => self.leap(robot, leap)?,
-            MoveDecision::Turn => self.turn_to(robot, self.looks_to().right())?,
+        let choice = match self.unless_stuck(MoveDecision::Stuck, Self::decide) {
+            MoveDecision::Drive(leap) => Choice::Drive(leap),
+            MoveDecision::Turn => Choice::Turn(self.looks_to().right()),
             MoveDecision::Finished { .. } | MoveDecision::Enough { .. } => {
-                return Ok(Standing::Done);
+                Choice::End(Standing::Done)
             }
-            MoveDecision::Stuck => return Ok(Standing::gave_up(NO_WAY)),
-        }
-        Ok(Standing::UnderWay)
+            MoveDecision::Stuck => give_up(NO_WAY),
+        };
+        self.carry_out(robot, choice)
     }
 
     /// Makes a step of the second run, which is planned again at every stop. It is done when the
@@ -154,13 +155,31 @@ impl NoisyMouse {
     /// # Errors
     /// If the robot fails.
     pub fn run<R: NoisyBody>(&mut self, robot: &mut R) -> Result<Standing, R::Error> {
-        if self.brief.goals.contains(&self.cell()) {
-            return Ok(Standing::Done);
+        let choice = self.choose_to_reach(&self.brief.goals.clone(), NO_WAY);
+        self.carry_out(robot, choice)
+    }
+
+    /// Chooses how to reach the nearest of `targets`. `no_way` is why the mouse gives up if it
+    /// believes that no way leads there.
+    pub(super) fn choose_to_reach(&mut self, targets: &[Cell], no_way: &str) -> Choice {
+        if targets.contains(&self.cell()) {
+            return Choice::End(Standing::Done);
         }
-        let Some(leap) = self.unless_stuck(None, |mouse| mouse.leap_to(&mouse.brief.goals)) else {
-            return Ok(Standing::gave_up(NO_WAY));
-        };
-        self.leap(robot, leap)?;
+        let leap = self.unless_stuck(None, |mouse| mouse.leap_to(targets));
+        leap.map_or_else(|| give_up(no_way), Choice::Drive)
+    }
+
+    /// Makes the chosen step.
+    pub(super) fn carry_out<R: NoisyBody>(
+        &mut self,
+        robot: &mut R,
+        choice: Choice,
+    ) -> Result<Standing, R::Error> {
+        match choice {
+            Choice::Drive(leap) => self.leap(robot, leap)?,
+            Choice::Turn(side) => self.turn_to(robot, side)?,
+            Choice::End(standing) => return Ok(standing),
+        }
         Ok(Standing::UnderWay)
     }
 

@@ -24,7 +24,7 @@ const SCATTER: (f64, f64) = (0.15, 0.15);
 const SURE: f64 = 0.95;
 
 /// The next thing to do.
-enum Choice {
+pub(super) enum Choice {
     Drive(Leap),
     Turn(Direction),
     End(Standing),
@@ -40,12 +40,8 @@ impl<R: NoisyBody> System<R> for NoisyMouse {
 
     fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, R::Error> {
         self.look(robot)?;
-        match self.choose(task) {
-            Choice::Drive(leap) => self.leap(robot, leap)?,
-            Choice::Turn(side) => self.turn_to(robot, side)?,
-            Choice::End(standing) => return Ok(standing),
-        }
-        Ok(Standing::UnderWay)
+        let choice = self.choose(task);
+        self.carry_out(robot, choice)
     }
 
     fn put_down(&mut self) -> Standing {
@@ -103,11 +99,7 @@ impl NoisyMouse {
             _ if self.is_lost => self.choose_to_find_itself(),
             Task::Explore | Task::Localize => self.choose_to_explore(),
             Task::Reach(goal) => match self.brief.cells_of(goal) {
-                Ok(cells) if cells.contains(&self.cell()) => Choice::End(Standing::Done),
-                Ok(cells) => {
-                    let leap = self.unless_stuck(None, |mouse| mouse.leap_to(&cells));
-                    leap.map_or_else(|| give_up("no way leads there"), Choice::Drive)
-                }
+                Ok(cells) => self.choose_to_reach(&cells, "no way leads there"),
                 Err(standing) => Choice::End(standing),
             },
         }
@@ -178,6 +170,6 @@ impl Mapper for NoisyMouse {
     }
 }
 
-fn give_up(why: &str) -> Choice {
+pub(super) fn give_up(why: &str) -> Choice {
     Choice::End(Standing::gave_up(why))
 }

@@ -69,13 +69,9 @@ impl Lost {
 }
 
 /// Returns the offset of the neighbour in a direction.
-const fn beyond([x, y]: [i32; 2], direction: Direction) -> [i32; 2] {
-    match direction {
-        Direction::North => [x, y + 1],
-        Direction::East => [x + 1, y],
-        Direction::South => [x, y - 1],
-        Direction::West => [x - 1, y],
-    }
+fn beyond([x, y]: [i32; 2], direction: Direction) -> [i32; 2] {
+    let (east, north) = direction.step();
+    [x + i32::from(east), y + i32::from(north)]
 }
 
 impl<S: Search> MazeMouse<S> {

@@ -5,7 +5,6 @@ use tolman_geom::{Heading, Pose};
 use tolman_maps::wall_map::{ClosedCells, ObserveError, WallMap};
 use tolman_maze::{Cell, Direction, Knowledge, Walls};
 use tolman_planners::Unknown;
-use tolman_planners::moves::{MoveExplorerConfig, RolloutConfig};
 use tolman_robot::{Compass, Mapper, Ranges, Robot, Rolls, Standing, System, Task, TurnTranslate};
 
 use super::choice::Choice;
@@ -76,8 +75,7 @@ impl MazeMouse<Certify> {
     /// # Errors
     /// If the maze is too large or a number of `config` is out of its range.
     pub fn certify(brief: Brief, config: MazeMouseConfig) -> Result<Self, MazeMouseError> {
-        let (explorer, rollouts) = (MoveExplorerConfig::tuned(), RolloutConfig::tuned());
-        let search = Certify::new(explorer, Some(rollouts), brief.grid, brief.start)?;
+        let search = Certify::tuned(brief.grid, brief.start).map_err(MouseError::from)?;
         Self::new(brief, config, search, RunTwo::FewestMoves)
     }
 }
