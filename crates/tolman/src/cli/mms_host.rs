@@ -186,7 +186,7 @@ fn way_step(exchange: &Exchange, sensed: &[SideSeen]) -> WayStep {
     let cell = pose.place.cell();
     let seen = sensed.iter().map(|seen| {
         let SideSeen { cell, side, stands } = seen;
-        json!({ "cell": { "x": cell.x, "y": cell.y }, "side": side.to_string(), "wall": stands })
+        json!({ "cell": cell, "side": side.to_string(), "wall": stands })
     });
     WayStep {
         pose: Pose::new(
@@ -197,7 +197,7 @@ fn way_step(exchange: &Exchange, sensed: &[SideSeen]) -> WayStep {
         line: json!({
             "move": line,
             "reply": reply,
-            "cell": { "x": cell.x, "y": cell.y },
+            "cell": cell,
             "heading_deg": heading.degrees(),
             "sensed": seen.collect::<Vec<_>>(),
         }),

@@ -234,7 +234,7 @@ fn way_step(step: &RefereedStep, pose: Pose) -> WayStep {
     let line = json!({
         "rotation": order.rotation,
         "movement": order.movement,
-        "cell": { "x": step.cell.x, "y": step.cell.y },
+        "cell": step.cell,
         "heading": step.heading.to_string(),
         "sensed": { "left": sight.left, "front": sight.front, "right": sight.right },
     });

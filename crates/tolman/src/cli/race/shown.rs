@@ -43,7 +43,7 @@ impl Shown {
             self.way.go(WayStep {
                 pose: self.way.in_cell(cell, side),
                 words: format!("explore, {side}"),
-                line: json!({ "explore": side.to_string(), "cell": { "x": cell.x, "y": cell.y } }),
+                line: json!({ "explore": side.to_string(), "cell": cell }),
                 came: Came::Moved,
             });
         }

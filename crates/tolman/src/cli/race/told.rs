@@ -166,11 +166,11 @@ pub(super) fn search_path(maze: &Maze, cells: &[Cell]) -> String {
         .map_or(Direction::North, |(_, heading)| heading);
     let step = |pair: &[Cell]| {
         let side = side_towards(pair[0], pair[1])?;
-        let letter = match side {
-            ahead if ahead == heading => 'S',
-            left if left == heading.left() => 'L',
-            right if right == heading.right() => 'R',
-            _ => 'T',
+        let letter = match side.seen_from(heading) {
+            Direction::North => 'S',
+            Direction::West => 'L',
+            Direction::East => 'R',
+            Direction::South => 'T',
         };
         heading = side;
         Some(letter)
