@@ -9,6 +9,7 @@
 
 extern crate alloc;
 
+mod abstract_world;
 mod fuzz;
 mod golden;
 mod judges;

@@ -14,6 +14,9 @@
 )]
 
 #[expect(dead_code, reason = "the tests need more of it")]
+#[path = "../tests/it/diktiometry/abstract_world.rs"]
+mod abstract_world;
+#[expect(dead_code, reason = "the tests need more of it")]
 #[path = "../tests/it/diktiometry/walk.rs"]
 mod walk;
 

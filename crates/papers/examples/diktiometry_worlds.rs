@@ -13,9 +13,13 @@ extern crate alloc;
 
 use core::num::NonZeroU64;
 
+#[expect(dead_code, reason = "the tests need more of it")]
+#[path = "../../maps/tests/it/diktiometry/abstract_world.rs"]
+mod abstract_world;
 #[path = "../../maps/tests/it/diktiometry/walk.rs"]
 mod walk;
 
+use abstract_world::{AbstractWorld, MoveNoise};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{
@@ -23,7 +27,6 @@ use tolman_maps::diktiometry::{
 };
 use tolman_maze::Direction;
 use tolman_papers::diktiometry::{ABLATIONS, Change};
-use tolman_sim::abstract_world::{AbstractWorld, MoveNoise};
 use walk::{
     COMPASS, ODOMETRY, ROUGH, Scripted, Walk, alike, blocks, braided_corridors, open, painted,
     rooms,

@@ -18,8 +18,6 @@
 //! 6. [`Solo`] is one robot in a world of its own behind [`tolman_robot::Robot`], which is all that
 //!    a brain gets to see. The [`Truth`] is kept beside it, for scoring.
 //!
-//! Mappers of places have a world of their own, without bodies and time: [`abstract_world`].
-//!
 //! With [`tolman_robot`] this crate suffices for a robot in a world: [`geom`], [`maze`] and
 //! [`rand`], which its signatures need, are re-exported.
 //!
@@ -77,7 +75,6 @@ mod solo;
 mod surroundings;
 mod world;
 
-pub mod abstract_world;
 pub mod casters;
 pub mod noise;
 pub mod robots;

@@ -29,7 +29,6 @@ mod tests {
     use tolman_maps::diktiometry::{MoveOutcome, Signature};
     use tolman_maze::Direction;
     use tolman_sim::DoorState;
-    use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld, MoveNoise};
     use tolman_systems::diktiometry::{Arrival, Rover, Surveyor};
 
     use super::super::office::{OfficeConfig, TruePlace, blocks};
@@ -126,54 +125,6 @@ mod tests {
             widths.iter().all(|width| *width < 0.45),
             "boxes say something: {widths:?}"
         );
-    }
-
-    /// Checks that the abstract world, in which mappers are tested a million times, has the
-    /// statistics of the robot.
-    #[test]
-    fn the_abstract_world_offers_the_same_statistics() {
-        let office = office(8, 0.2);
-        let config = SurveyorConfig::paper();
-        let truth = office.places(&[]);
-        let number: Vec<u32> = truth.keys().copied().collect();
-        let place = |site: u32| number.binary_search(&site).unwrap() as u32;
-        let positions = truth.values().map(|place| place.position).collect();
-        let ways = truth
-            .values()
-            .map(|there| there.ways.map(|way| way.map(place)));
-        let world = AbstractWorld::of_places(positions, ways.collect()).unwrap();
-        let mut errors = MoveNoise::NONE;
-        errors.distance = config.odometry_share;
-        errors.compass = config.compass_bound;
-        errors.stop = 0.03;
-        let mut ghost = AbstractRobot::new(world.into(), 0, errors, 8).unwrap();
-
-        // Of each move: how wide the box is and how wrong its middle, a metre of way.
-        let (mut real, mut ghostly) = (Vec::new(), Vec::new());
-        let mut before = truth.values().next().unwrap().position;
-        walk(&office, &[], 600, 8, |from, to, arrival, robot| {
-            let moved = robot.truth().pose.position - before;
-            before = robot.truth().pose.position;
-            if from.site != to.site {
-                let miss = arrival.moved.middle().coords - moved;
-                real.push([arrival.moved.width(), miss.norm()].map(|x| x / moved.norm()));
-            }
-        });
-        for _ in 0..real.len() {
-            let direction = ghost.wander().unwrap();
-            let gone = ghost.go(direction).unwrap();
-            let told = gone.odometry.position;
-            let miss = told.middle().coords - gone.truth;
-            ghostly.push([told.width(), miss.norm()].map(|x| x / gone.truth.norm()));
-        }
-        let means = |all: &[[f64; 2]]| {
-            [0, 1].map(|i| all.iter().map(|one| one[i]).sum::<f64>() / all.len() as f64)
-        };
-        let (real, ghostly) = (means(&real), means(&ghostly));
-        for (real, ghostly) in real.into_iter().zip(ghostly) {
-            let ratio = real / ghostly;
-            assert!((0.75..1.33).contains(&ratio), "{real} and {ghostly}");
-        }
     }
 
     #[test]

@@ -13,7 +13,10 @@ use rand_chacha::ChaCha8Rng;
 use serde_json::{Value, json};
 use tolman_maze::drawings::ring;
 use tolman_maze::{Braided, Direction, Maze};
-use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld, MoveNoise};
+
+#[expect(dead_code, reason = "the tests from outside need more of it")]
+#[path = "../../../tests/it/diktiometry/abstract_world.rs"]
+mod abstract_world;
 
 use super::look_evidence::look_alike;
 use super::{
@@ -24,6 +27,7 @@ use crate::diktiometry::{
     Action, Apart, Config, Exits, FirstPlace, Journal, JournalLength, Looks, MoveOutcome,
     ObservedMove, Observer, Signature, Use,
 };
+use abstract_world::{AbstractRobot, AbstractWorld, MoveNoise};
 
 const MOVES: usize = 400;
 

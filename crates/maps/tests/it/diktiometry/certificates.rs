@@ -1,5 +1,6 @@
 //! Certificates of merges hold in every world, and none holds that was changed.
 
+use super::abstract_world::{AbstractWorld, MoveNoise};
 use proptest::prelude::*;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
@@ -9,7 +10,6 @@ use tolman_maps::diktiometry::{
 };
 use tolman_maze::Maze;
 use tolman_maze::drawings::{ladder_of, ring, spiral};
-use tolman_sim::abstract_world::{AbstractWorld, MoveNoise};
 
 use super::walk::{ODOMETRY, Walk, alike, blocks, braided, painted, rooms};
 

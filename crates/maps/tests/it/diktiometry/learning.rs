@@ -1,6 +1,7 @@
 //! Tests the maps that are learned of worlds in which every place looks the same, of painted
 //! worlds, and after a kidnapping.
 
+use super::abstract_world::{AbstractWorld, MoveNoise};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::Point;
@@ -9,7 +10,6 @@ use tolman_maps::diktiometry::{
     PerceptualIndexing, Use, WorldKind,
 };
 use tolman_maze::Direction;
-use tolman_sim::abstract_world::{AbstractWorld, MoveNoise};
 
 use super::walk::{
     COMPASS, ODOMETRY, Score, Scripted, Walk, alike, blocks, braided_corridors, open, painted,

@@ -1,5 +1,6 @@
 //! The diktiometry on worlds of places, whose truth is known.
 
+pub(crate) mod abstract_world;
 mod certificates;
 #[cfg(feature = "serde")]
 mod files;

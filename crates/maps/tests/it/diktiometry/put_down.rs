@@ -2,11 +2,11 @@
 
 use alloc::collections::BTreeMap;
 
+use super::abstract_world::{AbstractRobot, AbstractWorld};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{Action, Explained, FirstPlace, PlaceBelief, PlaceId};
 use tolman_maze::Direction;
-use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld};
 
 use super::walk::{ODOMETRY, Walk, alike, blocks, exits, painted, percept};
 

@@ -1,5 +1,6 @@
 //! Walks of which every figure is pinned.
 
+use super::abstract_world::{AbstractWorld, MoveNoise};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::{Interval, Point, PointBox, PoseBox};
@@ -8,7 +9,6 @@ use tolman_maps::diktiometry::{
     MergeProof, MoveOutcome, ObservedMove, Observer, Opportunity, PlaceBelief, PlaceId,
     Restructured, Signature, Use, WorldKind,
 };
-use tolman_sim::abstract_world::{AbstractWorld, MoveNoise};
 
 use super::walk::{ROUGH, Scripted, Walk, alike, blocks, exits, open, painted, percept};
 use super::{certificates, properties};

@@ -2,12 +2,12 @@
 
 use alloc::collections::BTreeSet;
 
+use super::abstract_world::AbstractWorld;
 use proptest::prelude::*;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::{Interval, Point};
 use tolman_maps::diktiometry::{Action, Apart, Config, MapState, PlaceId, WorldKind};
-use tolman_sim::abstract_world::AbstractWorld;
 
 use super::walk::{ODOMETRY, Scripted, Walk, alike, blocks, painted};
 

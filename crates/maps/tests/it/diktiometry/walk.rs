@@ -2,6 +2,7 @@
 
 use alloc::collections::{BTreeMap, VecDeque};
 
+use super::abstract_world::{AbstractMove, AbstractRobot, AbstractWorld, MoveNoise};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::diktiometry::{
@@ -9,7 +10,6 @@ use tolman_maps::diktiometry::{
     Signature, SignatureKind, StepReport, Use, ViewRotation,
 };
 use tolman_maze::{Braided, Cell, Direction, Grid, Maze};
-use tolman_sim::abstract_world::{AbstractMove, AbstractRobot, AbstractWorld, MoveNoise};
 
 pub(crate) const COMPASS: f64 = 4.0 * core::f64::consts::PI / 180.0;
 

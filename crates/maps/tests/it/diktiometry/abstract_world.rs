@@ -5,30 +5,16 @@
 //! bounds. The truth is recorded for scoring.
 
 use alloc::sync::Arc;
+use alloc::vec;
+use alloc::vec::Vec;
 
 use tolman_geom::{Interval, IntervalError, Point, PointBox, PoseBox, Vector};
 use tolman_maze::{Cell, Direction, Maze};
-
-use crate::chance::{Chance, Channel, Draws};
+use tolman_sim::{Chance, Channel, Draws};
 
 /// Places, and the place to which each direction leads from them.
-///
-/// ```
-/// use tolman_maze::{Direction, Grid, Maze};
-/// use tolman_sim::abstract_world::{AbstractRobot, AbstractWorld, MoveNoise};
-///
-/// let world = AbstractWorld::from_maze(&Maze::open(Grid::new(5, 5)), 1.0);
-/// let mut errors = MoveNoise::NONE;
-/// errors.distance = 0.1;
-/// errors.compass = 4_f64.to_radians();
-/// let mut robot = AbstractRobot::new(world.into(), 0, errors, 7)?;
-/// let moved = robot.go(Direction::East).unwrap();
-/// assert_eq!((moved.from, moved.to), (0, 1));
-/// assert!(moved.odometry.position.contains(moved.truth.into()));
-/// # Ok::<(), tolman_geom::IntervalError>(())
-/// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct AbstractWorld {
+pub(crate) struct AbstractWorld {
     places: Vec<Point>,
     /// Per place, in the order of [`Direction::ALL`].
     neighbours: Vec<[Option<u32>; 4]>,
@@ -39,8 +25,7 @@ pub struct AbstractWorld {
 impl AbstractWorld {
     /// Returns a world with one place per cell, `spacing` m apart, numbered like the grid's cells.
     /// A move leads to the next cell if no wall stands between. All places look alike.
-    #[must_use]
-    pub fn from_maze(maze: &Maze, spacing: f64) -> Self {
+    pub(crate) fn from_maze(maze: &Maze, spacing: f64) -> Self {
         let cells: Vec<_> = maze.grid().cells().collect();
         let number = |cell| maze.grid().index(cell) as u32;
         Self::of_cells(&cells, spacing, |cell, direction| {
@@ -51,8 +36,7 @@ impl AbstractWorld {
     /// Returns the corridors of a maze whose cells are `spacing` m apart. There is a place at every
     /// bend, junction and dead end, numbered in the order of their cells. A move leads straight on
     /// to the next. All places look alike.
-    #[must_use]
-    pub fn from_corridors(maze: &Maze, spacing: f64) -> Self {
+    pub(crate) fn from_corridors(maze: &Maze, spacing: f64) -> Self {
         let ways = |cell| Direction::ALL.map(|direction| maze.is_open(cell, direction));
         let no_place = [
             [true, false, true, false],
@@ -91,8 +75,7 @@ impl AbstractWorld {
     /// Returns a world of any places, m, with the numbers of the places to the north, east, south
     /// and west of each. `None` if the numbers of entries differ, or a way leads to a place that
     /// does not exist. All places look alike.
-    #[must_use]
-    pub fn of_places(places: Vec<Point>, neighbours: Vec<[Option<u32>; 4]>) -> Option<Self> {
+    pub(crate) fn of_places(places: Vec<Point>, neighbours: Vec<[Option<u32>; 4]>) -> Option<Self> {
         let known = |place: &u32| (*place as usize) < places.len();
         let closed = neighbours.iter().flatten().flatten().all(known);
         (places.len() == neighbours.len() && closed).then(|| Self {
@@ -104,8 +87,7 @@ impl AbstractWorld {
 
     /// Paints every wall around a place in one of `colours` colours, drawn evenly from `seed`: 0,
     /// 1, …
-    #[must_use]
-    pub fn painted(mut self, colours: u32, seed: u64) -> Self {
+    pub(crate) fn painted(mut self, colours: u32, seed: u64) -> Self {
         let mut draws = Chance::of_run(seed).draws(Channel::named("abstract paint"));
         for look in self.looks.iter_mut().flatten() {
             *look = (draws.uniform() * f64::from(colours)).floor();
@@ -115,8 +97,7 @@ impl AbstractWorld {
 
     /// Gives every place the look of the place with the number that `of` returns, as in rooms that
     /// are furnished alike. Numbers of no place change nothing.
-    #[must_use]
-    pub fn looking_like(mut self, of: impl Fn(u32) -> u32) -> Self {
+    pub(crate) fn looking_like(mut self, of: impl Fn(u32) -> u32) -> Self {
         let looks = self.looks.clone();
         for (place, look) in (0..).zip(&mut self.looks) {
             if let Some(other) = looks.get(of(place) as usize) {
@@ -127,8 +108,7 @@ impl AbstractWorld {
     }
 
     /// Paints the walls around one place again, each in another colour, if there are two or more.
-    #[must_use]
-    pub fn repainted(mut self, place: u32, colours: u32) -> Self {
+    pub(crate) fn repainted(mut self, place: u32, colours: u32) -> Self {
         if let Some(look) = self.looks.get_mut(place as usize) {
             *look = look.map(|colour| (colour + 1.0) % f64::from(colours.max(1)));
         }
@@ -138,8 +118,7 @@ impl AbstractWorld {
     /// Returns the world with another way from a place in a direction: opened, leading elsewhere or
     /// shut, like a door. If it leads to a place, the way back changes too. Places that do not
     /// exist change nothing.
-    #[must_use]
-    pub fn with_way(mut self, place: u32, direction: Direction, to: Option<u32>) -> Self {
+    pub(crate) fn with_way(mut self, place: u32, direction: Direction, to: Option<u32>) -> Self {
         let back = direction.opposite() as usize;
         let count = self.places.len();
         if (place as usize) >= count || to.is_some_and(|to| (to as usize) >= count) {
@@ -169,20 +148,18 @@ impl AbstractWorld {
     }
 
     /// Returns the positions of the places, m, by number.
-    #[must_use]
-    pub fn places(&self) -> &[Point] {
+    pub(crate) fn places(&self) -> &[Point] {
         &self.places
     }
 
     /// Returns the place to which a direction leads from a place. `None` if it is blocked or the
     /// place does not exist.
-    #[must_use]
-    pub fn neighbour(&self, place: u32, direction: Direction) -> Option<u32> {
+    pub(crate) fn neighbour(&self, place: u32, direction: Direction) -> Option<u32> {
         self.neighbours.get(place as usize)?[direction as usize]
     }
 
     /// Returns the directions that lead somewhere, in the order of [`Direction::ALL`].
-    pub fn exits(&self, place: u32) -> impl Iterator<Item = Direction> + '_ {
+    pub(crate) fn exits(&self, place: u32) -> impl Iterator<Item = Direction> + '_ {
         let all = Direction::ALL.into_iter();
         all.filter(move |&direction| self.neighbour(place, direction).is_some())
     }
@@ -190,28 +167,27 @@ impl AbstractWorld {
 
 /// Errors of the measured moves, drawn uniformly within their bounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct MoveNoise {
+pub(crate) struct MoveNoise {
     /// Bound of the error of each distance, as a share of it, 0 ≤ … < 1.
-    pub distance: f64,
+    pub(crate) distance: f64,
     /// Bound of the error of each heading of the compass, rad.
-    pub compass: f64,
+    pub(crate) compass: f64,
     /// Bound of an error of scale, as a share of the distance, that is drawn once and shared by all
     /// moves. The reported bounds do not include it.
-    pub shared_scale: f64,
+    pub(crate) shared_scale: f64,
     /// Maximum distance from the place's point at which the robot stops, m, along each axis.
-    pub stop: f64,
+    pub(crate) stop: f64,
     /// Share of moves whose errors are `outlier_factor` times as large and break the bounds.
-    pub outliers: f64,
+    pub(crate) outliers: f64,
     /// Factor of an outlier's error.
-    pub outlier_factor: f64,
+    pub(crate) outlier_factor: f64,
     /// Bound of the error of a look, in its own unit.
-    pub look: f64,
+    pub(crate) look: f64,
 }
 
 impl MoveNoise {
     /// No errors at all.
-    pub const NONE: Self = Self {
+    pub(crate) const NONE: Self = Self {
         distance: 0.0,
         compass: 0.0,
         shared_scale: 0.0,
@@ -224,7 +200,7 @@ impl MoveNoise {
 
 /// A robot in an [`AbstractWorld`].
 #[derive(Clone, Debug)]
-pub struct AbstractRobot {
+pub(crate) struct AbstractRobot {
     world: Arc<AbstractWorld>,
     errors: MoveNoise,
     chance: Chance,
@@ -237,22 +213,22 @@ pub struct AbstractRobot {
 
 /// A move with its truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct AbstractMove {
+pub(crate) struct AbstractMove {
     /// Place where the move began.
-    pub from: u32,
+    pub(crate) from: u32,
     /// Direction of the move.
-    pub direction: Direction,
+    pub(crate) direction: Direction,
     /// Place where the move ended.
-    pub to: u32,
+    pub(crate) to: u32,
     /// True displacement of the robot, m.
-    pub truth: Vector,
+    pub(crate) truth: Vector,
     /// Displacement by odometry, m, along the axes of the robot's compass.
-    pub measured: Vector,
+    pub(crate) measured: Vector,
     /// Bounds of the move by its measurement, without the shared scale and outliers: the
     /// displacement along the true axes, m, and the heading.
-    pub odometry: PoseBox,
+    pub(crate) odometry: PoseBox,
     /// Looks of the place in each direction, in the order of [`Direction::ALL`].
-    pub look: [f64; 4],
+    pub(crate) look: [f64; 4],
 }
 
 impl AbstractRobot {
@@ -260,7 +236,7 @@ impl AbstractRobot {
     ///
     /// # Errors
     /// If an error's bound is negative or not a number.
-    pub fn new(
+    pub(crate) fn new(
         world: Arc<AbstractWorld>,
         at: u32,
         errors: MoveNoise,
@@ -284,20 +260,18 @@ impl AbstractRobot {
     }
 
     /// Returns the world.
-    #[must_use]
-    pub fn world(&self) -> &AbstractWorld {
+    pub(crate) fn world(&self) -> &AbstractWorld {
         &self.world
     }
 
     /// Returns the number of the place where the robot is.
-    #[must_use]
-    pub const fn at(&self) -> u32 {
+    pub(crate) const fn at(&self) -> u32 {
         self.at
     }
 
     /// Puts the robot at another place without telling it. Does nothing if the place does not
     /// exist.
-    pub fn kidnap(&mut self, to: u32) {
+    pub(crate) fn kidnap(&mut self, to: u32) {
         if (to as usize) < self.world.places.len() {
             self.at = to;
         }
@@ -305,15 +279,14 @@ impl AbstractRobot {
 
     /// Changes the world round the robot, which keeps its place: doors shut and open. Does nothing
     /// if the new world lacks that place.
-    pub fn find_itself_in(&mut self, world: Arc<AbstractWorld>) {
+    pub(crate) fn find_itself_in(&mut self, world: Arc<AbstractWorld>) {
         if (self.at as usize) < world.places.len() {
             self.world = world;
         }
     }
 
     /// Returns the factor by which its odometry is too long at every move.
-    #[must_use]
-    pub const fn scale(&self) -> f64 {
+    pub(crate) const fn scale(&self) -> f64 {
         self.scale
     }
 
@@ -324,8 +297,7 @@ impl AbstractRobot {
     }
 
     /// Returns the view of the robot now.
-    #[must_use]
-    pub fn look(&self) -> [f64; 4] {
+    pub(crate) fn look(&self) -> [f64; 4] {
         let mut draws = self.draws("abstract look");
         let look = self.world.looks.get(self.at as usize).copied();
         look.unwrap_or_default()
@@ -333,8 +305,7 @@ impl AbstractRobot {
     }
 
     /// Returns one of the open directions, all equally likely, or `None` if there are none.
-    #[must_use]
-    pub fn wander(&self) -> Option<Direction> {
+    pub(crate) fn wander(&self) -> Option<Direction> {
         let mut draws = self.draws("abstract walk");
         let exits: Vec<Direction> = self.world.exits(self.at).collect();
         let drawn = (draws.uniform() * exits.len() as f64) as usize;
@@ -342,7 +313,7 @@ impl AbstractRobot {
     }
 
     /// Goes to the next place. Returns `None` and stays if the direction is blocked.
-    pub fn go(&mut self, direction: Direction) -> Option<AbstractMove> {
+    pub(crate) fn go(&mut self, direction: Direction) -> Option<AbstractMove> {
         let from = self.at;
         let to = self.world.neighbour(from, direction)?;
         self.moves += 1;
