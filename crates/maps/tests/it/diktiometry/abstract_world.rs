@@ -285,11 +285,6 @@ impl AbstractRobot {
         }
     }
 
-    /// Returns the factor by which its odometry is too long at every move.
-    pub(crate) const fn scale(&self) -> f64 {
-        self.scale
-    }
-
     /// Returns the numbers of a channel since the last move.
     fn draws(&self, channel: &str) -> Draws {
         let chance = self.chance.at(0, self.moves);
