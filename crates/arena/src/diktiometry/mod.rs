@@ -22,13 +22,13 @@ mod surveyor_config;
 
 pub use epuck::{EpuckRoverError, EpuckSurvey, EpuckSurveyConfig, survey_maze};
 pub use errors::{ErrorSummary, MoveError, NEAR, TAIL, WINDOW};
-pub use office::{Office, OfficeConfig, OfficeError, TruePlace, blocks};
+pub use office::{Office, OfficeConfig, TruePlace, blocks};
 pub use office_robot::{OfficeRobot, office_robot};
 pub use score::{MapScore, Visit, score};
-pub use survey::{PlanTrial, RunError, Survey, SurveyConfig, mapper};
-pub use survey_file::{SurveyFile, SurveyFileError, Surveyed};
+pub use survey::{PlanTrial, Survey, SurveyConfig, mapper};
+pub use survey_file::{SurveyFile, Surveyed};
 pub use surveyor_config::{PlaceCue, SurveyorConfig};
 
 use memory::Memory;
-use office::{Places, leads, least_distance};
+use office::{Places, leads, least_distance, no_way};
 pub(crate) use score::share;

@@ -6,19 +6,20 @@ use core::f64::consts::PI;
 
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use thiserror::Error;
 use tolman_control::unit_of;
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_maps::diktiometry::Config;
 use tolman_maze::{Cell, Direction, Grid, Maze};
 use tolman_robot::Body;
-use tolman_sim::{CorridorSize, Door, DoorState, Material, WallSegment, World, WorldError};
+use tolman_sim::{CorridorSize, Door, DoorState, Material, WallSegment, World};
 use tolman_systems::diktiometry::DiktiometerConfig;
 use tolman_systems::stream;
 
-use super::{RunError, SurveyorConfig};
+use super::SurveyorConfig;
+use crate::BoxError;
 use crate::contest::is_straight;
 use crate::course::{Course, pick};
+use crate::registry::because;
 
 /// Depth of the narrow part of a doorway, in the middle of the wall, as a share of the corridor's
 /// width.
@@ -90,27 +91,6 @@ pub struct Office {
     config: OfficeConfig,
 }
 
-/// Reason why a maze cannot become an office.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum OfficeError {
-    /// The share of doorways is outside 0 to 1.
-    #[error("`doorway_share` is {share}; give a number from 0 to 1")]
-    DoorwayShare {
-        /// The offending share.
-        share: f64,
-    },
-    /// The number of colours is 0 or more than can be told apart.
-    #[error("`colours` is {colours}; give 1 to {MOST_COLOURS}")]
-    Colours {
-        /// The offending number.
-        colours: u32,
-    },
-    /// The world cannot be built.
-    #[error("no world can be built from the maze; correct the maze or the office's settings")]
-    World(#[from] WorldError),
-}
-
 impl Office {
     /// Returns the office with this name for its maze.
     #[must_use]
@@ -122,15 +102,15 @@ impl Office {
     /// Raises the walls of a maze.
     ///
     /// # Errors
-    /// [`OfficeError`] if the configuration is invalid.
-    pub fn new(maze: &Maze, config: &OfficeConfig) -> Result<Self, OfficeError> {
+    /// If the configuration is invalid.
+    pub fn new(maze: &Maze, config: &OfficeConfig) -> Result<Self, BoxError> {
         let share = config.doorway_share;
         if !(0.0..=1.0).contains(&share) {
-            return Err(OfficeError::DoorwayShare { share });
+            return Err(format!("`doorway_share` is {share}; give a number from 0 to 1").into());
         }
         if !(1..=MOST_COLOURS).contains(&config.colours) {
             let colours = config.colours;
-            return Err(OfficeError::Colours { colours });
+            return Err(format!("`colours` is {colours}; give 1 to {MOST_COLOURS}").into());
         }
         let mut rng = ChaCha8Rng::seed_from_u64(config.seed);
         let cells: Vec<Cell> = match maze.goals() {
@@ -161,7 +141,12 @@ impl Office {
             corridor_width: config.corridor_width,
             wall_thickness: config.wall_thickness,
         };
-        let bare = World::from_maze(maze, &size)?;
+        let no_world = |error| {
+            let what =
+                "no world can be built from the maze; correct the maze or the office's settings";
+            because(what, error)
+        };
+        let bare = World::from_maze(maze, &size).map_err(no_world)?;
         let pieces = bare.walls().iter().map(|wall| config.pieces(wall));
         let mut outlines: Vec<Vec<Point>> = pieces.collect();
         if config.wall_thickness > 0.0 {
@@ -178,13 +163,15 @@ impl Office {
             material: paint(),
         });
         let walls = walls.collect();
-        let world = World::from_segments(walls)?.with_cells_of(&bare);
+        let world = World::from_segments(walls).map_err(no_world)?;
+        let world = world.with_cells_of(&bare);
         let numbered = doorways.iter().enumerate();
         let doors = numbered
             .flat_map(|(number, (cell, direction))| config.doors(number, *cell, *direction));
         let world = world
-            .with_zones(bare.zones().iter().cloned())?
-            .with_doors(doors)?;
+            .with_zones(bare.zones().iter().cloned())
+            .and_then(|world| world.with_doors(doors))
+            .map_err(no_world)?;
         Ok(Self {
             course: Course::in_world("", maze.clone(), config.corridor_width, world),
             doorways,
@@ -307,24 +294,28 @@ impl Office {
     }
 
     /// Returns a random place from which a run may start, by its seed.
-    pub(super) fn random_place(&self, seed: u64) -> Option<TruePlace> {
-        let truth = self.places(&[]);
-        pick(
-            &truth.into_values().collect::<Vec<_>>(),
-            &mut stream(seed, 0),
-        )
+    ///
+    /// # Errors
+    /// If there is none.
+    pub(super) fn random_place(&self, seed: u64) -> Result<TruePlace, BoxError> {
+        let places: Vec<TruePlace> = self.places(&[]).into_values().collect();
+        pick(&places, &mut stream(seed, 0)).ok_or_else(|| no_way(Point::origin()))
     }
 
     /// Returns the place of `truth` at a position.
     ///
     /// # Errors
-    /// [`RunError::OffPlace`] if none is near.
-    pub(super) fn place_at(&self, truth: &Places, at: Point) -> Result<TruePlace, RunError> {
+    /// If none is near.
+    pub(super) fn place_at(&self, truth: &Places, at: Point) -> Result<TruePlace, BoxError> {
         let places = truth.values();
         let distances = places.map(|place| ((place.position - at).norm(), place));
         match distances.min_by(|a, b| a.0.total_cmp(&b.0)) {
             Some((distance, place)) if distance < 0.5 * self.separation() => Ok(*place),
-            _ => Err(RunError::OffPlace { at }),
+            _ => Err(format!(
+                "the robot is at ({}, {}) m, which is not a place; lower the noise",
+                at.x, at.y
+            )
+            .into()),
         }
     }
 
@@ -383,6 +374,15 @@ impl Office {
         }
         self.onward(maze, beyond, way)
     }
+}
+
+/// Returns the error that no way leads on from a position.
+pub(super) fn no_way(at: Point) -> BoxError {
+    format!(
+        "no way leads on from ({}, {}) m; open a wall there",
+        at.x, at.y
+    )
+    .into()
 }
 
 /// Returns whether a cell is a place: its corridor does not just lead straight on.

@@ -4,13 +4,11 @@ use alloc::sync::Arc;
 
 use rand::{Rng, RngExt};
 use rand_chacha::ChaCha8Rng;
-use thiserror::Error;
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::diktiometry::{Apart, Config, MoveOutcome, Observer, PlaceId, WorldKind};
 use tolman_maze::Direction;
 use tolman_robot::{Standing, Task};
-use tolman_sim::robots::CameraPioneerError;
-use tolman_sim::{DoorState, PlaceError};
+use tolman_sim::DoorState;
 use tolman_systems::diktiometry::{
     Diktiometer, ExploreUntil, MappedMove, aligned_signatures, exit_signatures,
 };
@@ -18,9 +16,10 @@ use tolman_systems::stream;
 
 use super::{
     MapScore, Memory, MoveError, Office, OfficeRobot, PlaceCue, Places, SurveyorConfig, Visit,
-    leads, office_robot, score,
+    leads, no_way, office_robot, score,
 };
 use crate::course::pick;
+use crate::registry::because;
 use crate::run::{InRun, until_done};
 use crate::{BoxError, Outing, Sent};
 
@@ -122,53 +121,19 @@ pub enum PlanTrial {
     },
 }
 
-/// Reason why a run cannot go on.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum RunError {
-    /// The robot cannot be built.
-    #[error("the robot cannot be built; correct its configuration")]
-    Robot(#[from] CameraPioneerError),
-    /// The robot cannot stand where it is put.
-    #[error("the robot cannot stand there; choose another start")]
-    Place(#[from] PlaceError),
-    /// The system cannot go on.
-    #[error("the survey broke off at ({}, {}) m", at.x, at.y)]
-    BrokeOff {
-        /// Position of the robot.
-        at: Point,
-        /// Reason why the robot or the observer cannot continue.
-        source: BoxError,
-    },
-    /// The robot is at no place.
-    #[error("the robot is at ({}, {}) m, which is not a place; lower the noise", at.x, at.y)]
-    OffPlace {
-        /// Position of the robot.
-        at: Point,
-    },
-    /// No way leads on.
-    #[error("no way leads on from ({}, {}) m; open a wall there", at.x, at.y)]
-    NoWay {
-        /// Position of the robot.
-        at: Point,
-    },
-}
-
 impl Survey {
     /// Sends a diktiometer without a map from a random place of an office through all its moves, at
     /// least one. `watch` sees the run after each.
     ///
     /// # Errors
-    /// [`RunError`] if the robot cannot be made or go on, and the error of `watch`.
+    /// If the robot cannot be made or go on, and the error of `watch`.
     pub fn run(
         office: &Arc<Office>,
         config: SurveyConfig,
         seed: u64,
         mut watch: impl FnMut(&Self, &MappedMove) -> Result<(), BoxError>,
     ) -> Result<Self, BoxError> {
-        let start = office.random_place(seed).ok_or(RunError::NoWay {
-            at: Point::origin(),
-        })?;
+        let start = office.random_place(seed)?;
         let mut paper = office.diktiometer(&config.robot, config.mapper.clone());
         (paper.heed, paper.until) = (config.heed, ExploreUntil::Never);
         let system = Diktiometer::new(paper, config.robot.sight, seed);
@@ -201,16 +166,17 @@ impl Survey {
     }
 
     /// Makes one move.
-    fn step(&mut self) -> Result<(), RunError> {
+    fn step(&mut self) -> Result<(), BoxError> {
         let (before, from) = (self.position(), self.site());
         let acted = match self.move_a_door() {
             Ok(()) => self.outing.act(Task::Explore),
             Err(error) => Err(error),
         };
         let at = self.position();
-        let standing = acted.map_err(|source| RunError::BrokeOff { at, source })?;
+        let broke_off = || format!("the survey broke off at ({}, {}) m", at.x, at.y);
+        let standing = acted.map_err(|error| because(broke_off(), error))?;
         let (Standing::UnderWay, Some(moved)) = (standing, self.outing.system().last_move()) else {
-            return Err(RunError::NoWay { at });
+            return Err(no_way(at));
         };
         let here = self.office.place_at(&self.truth, at)?;
         if moved.arrival.outcome == MoveOutcome::Arrived {

@@ -1,18 +1,18 @@
 use alloc::sync::Arc;
 
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 use tolman_geom::{Heading, Point, Pose};
-use tolman_maps::diktiometry::{MapFile, MapFileError, MoveOutcome, Observer, PlaceId, Use};
-use tolman_maze::{Cell, Direction, MazeError, MazeFile};
+use tolman_maps::diktiometry::{MapFile, MoveOutcome, Observer, PlaceId, Use};
+use tolman_maze::{Cell, Direction, MazeFile};
 use tolman_robot::Task;
 use tolman_systems::diktiometry::{Diktiometer, LandmarkSpot};
-use tolman_systems::{FileError, MapFiles, Origin, origin_of};
+use tolman_systems::{MapFiles, Origin, origin_of};
 
 use super::{
-    MapScore, Office, OfficeConfig, OfficeError, OfficeRobot, PlaceCue, RunError, SurveyorConfig,
-    Visit, office_robot, score,
+    MapScore, Office, OfficeConfig, OfficeRobot, PlaceCue, SurveyorConfig, Visit, office_robot,
+    score,
 };
+use crate::registry::because;
 use crate::{BoxError, Founding, Sent};
 
 /// Systems whose files hold surveys: as in the paper, and with merges by looks and turns.
@@ -47,31 +47,6 @@ pub struct SurveyFile {
     pub observer: Observer,
 }
 
-/// Reason why a file holds no survey.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum SurveyFileError {
-    /// The header or the JSON is invalid, names another system, or the survey cannot be written as
-    /// JSON.
-    #[error(transparent)]
-    File(#[from] FileError),
-    /// The exploration probability is outside 0 to 1.
-    #[error("its `heed`, the exploration probability, is {found}: give a number from 0 to 1")]
-    Heed {
-        /// The value found.
-        found: f64,
-    },
-    /// The maze is invalid.
-    #[error("its maze is invalid; learn the map again")]
-    Maze(#[from] MazeError),
-    /// The maze cannot become a world.
-    #[error("no world can be built from its maze; learn the map again")]
-    Office(#[from] OfficeError),
-    /// The map is invalid, or its journal was not kept.
-    #[error("its map is invalid; learn the map again")]
-    Map(#[from] MapFileError),
-}
-
 #[derive(Serialize, Deserialize)]
 struct Body {
     /// The maze as in maze files.
@@ -92,17 +67,15 @@ impl Surveyed {
     /// Returns a survey that begins at a random place of an office, by its seed.
     ///
     /// # Errors
-    /// [`RunError::NoWay`] if the office has no place.
+    /// If the office has no place.
     pub fn begin(
         world: &str,
         office: Arc<Office>,
         robot: SurveyorConfig,
         heed: f64,
         seed: u64,
-    ) -> Result<Self, RunError> {
-        let start = office.random_place(seed).ok_or(RunError::NoWay {
-            at: Point::origin(),
-        })?;
+    ) -> Result<Self, BoxError> {
+        let start = office.random_place(seed)?;
         Ok(Self {
             origin: Origin {
                 world: world.to_owned(),
@@ -123,13 +96,13 @@ impl Surveyed {
     /// map as a file. `seed` seeds all noise.
     ///
     /// # Errors
-    /// [`RunError`] if the robot cannot be made or cannot stand here.
+    /// If the robot cannot be made or cannot stand here.
     pub fn sent(
         self,
         system: Diktiometer<PlaceCue>,
         step_limit: u32,
         seed: u64,
-    ) -> Result<Sent<OfficeRobot, Diktiometer<PlaceCue>>, RunError> {
+    ) -> Result<Sent<OfficeRobot, Diktiometer<PlaceCue>>, BoxError> {
         let pose = Pose::new(self.at, Heading::NORTH);
         let robot = office_robot(&self.office, &self.robot, pose, seed)?;
         let (course, name) = (self.office.course.clone(), self.robot.name());
@@ -139,8 +112,7 @@ impl Surveyed {
         let sent = sent.counting(|system| system.visited().len());
         Ok(sent.keeping(move |system, founded| {
             let file = self.after(system, founded)?;
-            let text = file.map(|file| file.to_json()).transpose();
-            Ok::<_, BoxError>(text?)
+            file.map(|file| file.to_json()).transpose()
         }))
     }
 
@@ -150,7 +122,7 @@ impl Surveyed {
         &self,
         system: &Diktiometer<PlaceCue>,
         founded: &[Founding],
-    ) -> Result<Option<SurveyFile>, RunError> {
+    ) -> Result<Option<SurveyFile>, BoxError> {
         let Some(observer) = system.observer() else {
             return Ok(None);
         };
@@ -190,9 +162,8 @@ impl SurveyFile {
     /// Returns the text of the file, with a line end.
     ///
     /// # Errors
-    /// [`SurveyFileError::Map`] if the mapper kept no journal, [`SurveyFileError::File`] if it
-    /// cannot be written.
-    pub fn to_json(&self) -> Result<String, SurveyFileError> {
+    /// If the mapper kept no journal, or it cannot be written.
+    pub fn to_json(&self) -> Result<String, BoxError> {
         let surveyed = &self.surveyed;
         let visits = surveyed
             .visits
@@ -206,7 +177,7 @@ impl SurveyFile {
             start: surveyed.start.into(),
             at: surveyed.at.into(),
             visits: visits.collect(),
-            map: MapFile::of(&self.observer)?,
+            map: MapFile::of(&self.observer).map_err(invalid("its map is invalid"))?,
         };
         let system = self.system();
         Ok(MapFiles { system }.write(&surveyed.origin, &body)?)
@@ -215,8 +186,8 @@ impl SurveyFile {
     /// Reads the text of a file.
     ///
     /// # Errors
-    /// [`SurveyFileError`] with the place and the repair.
-    pub fn from_json(text: &str) -> Result<Self, SurveyFileError> {
+    /// With the place and the repair.
+    pub fn from_json(text: &str) -> Result<Self, BoxError> {
         let (found, _) = origin_of(text)?;
         let mut systems = SYSTEMS.into_iter();
         let system = systems
@@ -224,12 +195,18 @@ impl SurveyFile {
             .unwrap_or(SYSTEMS[0]);
         let (origin, body): (_, Body) = MapFiles { system }.read(text)?;
         if !(0.0..=1.0).contains(&body.heed) {
-            return Err(SurveyFileError::Heed { found: body.heed });
+            return Err(format!(
+                "its `heed`, the exploration probability, is {}: give a number from 0 to 1",
+                body.heed
+            )
+            .into());
         }
         // It need not have a goal.
-        let MazeFile { maze, .. } = tolman_maze::parse(&body.maze)?;
-        let observer = body.map.observer()?;
-        let office = Office::new(&maze, &body.office)?;
+        let parsed = tolman_maze::parse(&body.maze);
+        let MazeFile { maze, .. } = parsed.map_err(invalid("its maze is invalid"))?;
+        let observer = body.map.observer().map_err(invalid("its map is invalid"))?;
+        let office = Office::new(&maze, &body.office)
+            .map_err(invalid("no world can be built from its maze"))?;
         let visits = body.visits.into_iter();
         let visits = visits.map(|(site, place)| Visit { site, place });
         let surveyed = Surveyed {
@@ -331,6 +308,11 @@ impl SurveyFile {
     }
 }
 
+/// Returns the error of a survey of which `what` holds, for this reason.
+fn invalid<E: Into<BoxError>>(what: &str) -> impl FnOnce(E) -> BoxError {
+    move |error| because(format!("{what}; learn the map again"), error)
+}
+
 #[cfg(test)]
 mod tests {
     use rand::SeedableRng;
@@ -400,19 +382,22 @@ mod tests {
         let check = |changed: String, expect: &str| {
             let error = SurveyFile::from_json(&changed).unwrap_err();
             let told = format!("{error:?}");
-            assert!(told.starts_with(expect), "{told} for {expect}");
+            assert!(told.contains(expect), "{told} for {expect}");
         };
-        check(text[..text.len() / 2].to_owned(), "File(CutOff");
-        check(text.replacen("diktiometry", "mslst", 1), "File(System");
-        check(text.replacen("\"heed\":", "\"heel\":", 1), "File(Body");
+        check(text[..text.len() / 2].to_owned(), "CutOff");
+        check(text.replacen("diktiometry", "mslst", 1), "System");
+        check(text.replacen("\"heed\":", "\"heel\":", 1), "Body");
         check(
             text.replacen("\"moves\":5,", "\"moves\":6,", 1),
-            "Map(Truncated",
+            "Truncated",
         );
-        check(text.replacen("o---o", "o~~~o", 1), "Maze");
+        check(text.replacen("o---o", "o~~~o", 1), "its maze is invalid");
         for colours in ["0", "4294967295"] {
             let colours = format!("\"colours\":{colours}");
-            check(text.replacen("\"colours\":4", &colours, 1), "Office");
+            check(
+                text.replacen("\"colours\":4", &colours, 1),
+                "no world can be built from its maze",
+            );
         }
     }
 }

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use tolman_draw::Drawing;
 use tolman_geom::{Heading, Interval, Point, Pose};
 use tolman_maps::diktiometry::{
-    Action, DecidingWalk, JournalLength, Link, Observer, OpenPair, PlaceId,
+    Action, Config, DecidingWalk, JournalLength, Link, Observer, OpenPair, PlaceId,
 };
 use tolman_maze::Direction;
 use tolman_robot::{Landmark, MapView, Mapper, Task};
@@ -137,20 +137,12 @@ impl SystemEntry for DiktiometryEntry {
         }
         let (surveyed, observer, moves) = match setup.from {
             Some(map) => self.gone_on_with(map, setup)?,
-            None => self.begun(setup)?,
-        };
-        let mapper = match &observer {
-            Some(observer) => observer.config().clone(),
-            None => {
-                let mut mapper = mapper(&surveyed.office, &surveyed.robot);
-                mapper.journal = JournalLength::All;
-                if !self.is_paper {
-                    mapper.restructuring.merge_by_looks_and_turns();
-                }
-                mapper
-            }
+            None => Self::begun(setup)?,
         };
         let (sight, seed) = (surveyed.robot.sight, setup.seed);
+        let mut mapper = self.mapper(&surveyed.office, &surveyed.robot);
+        // The survey's file is the journal.
+        mapper.journal = JournalLength::All;
         let mut config = surveyed.office.diktiometer(&surveyed.robot, mapper);
         (config.heed, config.until) = (surveyed.heed, ExploreUntil::Moves(moves));
         let system = match observer {
@@ -204,8 +196,18 @@ impl SystemEntry for DiktiometryEntry {
 }
 
 impl DiktiometryEntry {
+    /// Returns the mapper for a robot in an office.
+    fn mapper(self, office: &Office, robot: &SurveyorConfig) -> Config {
+        let mut mapper = mapper(office, robot);
+        if !self.is_paper {
+            mapper.journal = JournalLength::All;
+            mapper.restructuring.merge_by_looks_and_turns();
+        }
+        mapper
+    }
+
     /// Returns a new survey and its number of moves.
-    fn begun(self, setup: &Setup<'_>) -> Result<(Surveyed, Option<Observer>, u32), BoxError> {
+    fn begun(setup: &Setup<'_>) -> Result<(Surveyed, Option<Observer>, u32), BoxError> {
         let learning: Learning = setup.settings.over(&LEARNING)?;
         let robot = surveyor(&setup.robot);
         let mut furniture = OfficeConfig::bare();
@@ -292,13 +294,8 @@ impl DiktiometryEntry {
         };
         let start = setup.start(&office.course, Start::Random, random)?;
         let pose = Pose::new(start.position, Heading::NORTH);
-        let mut mapping = mapper(&office, &config);
-        if !self.is_paper {
-            mapping.journal = JournalLength::All;
-            mapping.restructuring.merge_by_looks_and_turns();
-        }
         let routines = config.routines(furniture.corridor_width);
-        let paper = DiktiometerConfig::paper(routines, mapping);
+        let paper = DiktiometerConfig::paper(routines, self.mapper(&office, &config));
         let (course, seed) = (office.course.clone(), setup.seed);
         Ok(match config.sight {
             PlaceCue::Laser { columns } => {
