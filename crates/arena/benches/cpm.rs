@@ -8,11 +8,12 @@ extern crate alloc;
 mod world;
 
 use core::hint::black_box;
+use core::ops::ControlFlow;
 use criterion::{Criterion, criterion_group, criterion_main};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_maps::cpm::{Alignment, FragmentMatching, Localizer, LocalizerConfig, Similarity, Turn};
-use tolman_systems::cpm::{Aim, CpmConfig, Explorer, JunctionDecision};
+use tolman_systems::cpm::{Aim, CpmConfig, Explorer};
 use world::{Likeness, MazeConfig, PlaneMaze, PlaneWalker, Reckoning, WalkOutcome, WalkerNoise};
 
 fn world(columns: u32, rows: u32) -> PlaneMaze {
@@ -54,7 +55,7 @@ fn miscounted(world: &PlaneMaze, walks: u32) -> Explorer {
     let mut config = CpmConfig::robust();
     config.most_traversals = walks;
     let mut explorer = Explorer::new(config, rover.sighting()).unwrap();
-    while let JunctionDecision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
+    while let ControlFlow::Continue(leg) = explorer.decide(Aim::Explore, &mut rng) {
         // A way that is not there leads back.
         let is_there = leg.turn.0 < rover.sighting().degree;
         let turn = if is_there { leg.turn } else { Turn::BACK };

@@ -57,7 +57,7 @@ pub use heading::Heading;
 pub use interval::{Interval, IntervalError};
 pub use out_of_range::{OutOfRange, POSITIVE};
 pub use point_box::PointBox;
-pub use pose::Pose;
+pub use pose::{Pose, path_length};
 pub use pose_box::PoseBox;
 pub use segment::nearest_on_segment;
 pub use twist::Twist;

@@ -141,6 +141,22 @@ fn sinc(x: f64) -> f64 {
     }
 }
 
+/// Returns the length of a path, m: the sum of the distances between poses that follow each other.
+///
+/// ```
+/// use tolman_geom::{Heading, Point, Pose, path_length};
+///
+/// let path = [0.0, 3.0, 1.0].map(|x| Pose::new(Point::new(x, 0.0), Heading::EAST));
+/// assert_eq!(path_length(&path), 5.0);
+/// ```
+#[must_use]
+pub fn path_length(path: &[Pose]) -> f64 {
+    let steps = path.windows(2);
+    steps
+        .map(|step| (step[1].position - step[0].position).norm())
+        .sum()
+}
+
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;

@@ -155,6 +155,14 @@ pub struct MapLink {
     pub to: u32,
 }
 
+impl MapLink {
+    /// Returns the links of a way between two places, there and back.
+    #[must_use]
+    pub const fn both_ways(a: u32, b: u32) -> [Self; 2] {
+        [Self { from: a, to: b }, Self { from: b, to: a }]
+    }
+}
+
 /// A place where a robot may be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Guess {

@@ -34,7 +34,7 @@ pub struct MapFiles {
 }
 
 /// Origin of a map: the maze, the robot and the seed.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Origin {
     /// Name of the maze.
     pub world: String,

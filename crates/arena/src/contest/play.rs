@@ -1,7 +1,7 @@
 use core::time::Duration;
 
 use thiserror::Error;
-use tolman_geom::{Point, Pose};
+use tolman_geom::{Point, Pose, path_length};
 use tolman_maze::{Cell, Direction, Maze, MazeFile};
 use tolman_robot::{Goal, Landmark, Standing, Task};
 use tolman_sim::DoorState;
@@ -563,7 +563,7 @@ impl Bout {
         let last = path.len() - 1;
         let is_sent = matches!(pursuit.task, Task::Reach(_));
         for at in pursuit.until..=last {
-            let step = path.get(at.max(from + 1) - 1..=at).map_or(0.0, length);
+            let step = path.get(at.max(from + 1) - 1..=at).map_or(0.0, path_length);
             let is_lifted = pursuit.put.is_some_and(|(_, next)| next == at);
             let is_new = at > pursuit.until && !is_lifted;
             pursuit.driven += if is_new { step } else { 0.0 };
@@ -792,16 +792,6 @@ const STEPS_A_CELL: u32 = 20_000;
 
 /// Distance from a place within which a robot is at it, in cells.
 pub(super) const NEAR: f64 = 0.75;
-
-/// Returns the length of a path, m.
-pub(super) fn length(path: &[Pose]) -> f64 {
-    let steps = path.windows(2);
-    let step = |pair: &[Pose]| match pair {
-        [from, to] => (to.position - from.position).norm(),
-        _ => 0.0,
-    };
-    steps.map(step).sum()
-}
 
 /// Lengths that a contest measures in a drawing.
 pub(super) trait Measured {

@@ -1,8 +1,8 @@
-use tolman_geom::Point;
+use tolman_geom::{Point, path_length};
 use tolman_maze::{Cell, Direction, MazeFile};
 use tolman_robot::{Guess, Position};
 
-use super::play::{Contest, Home, LocateOutcome, Located, Measured, NEAR, length};
+use super::play::{Contest, Home, LocateOutcome, Located, Measured, NEAR};
 use super::whereabouts::Squares;
 use crate::BoxError;
 use crate::cast::{Agent, Cast};
@@ -74,7 +74,7 @@ impl<'a> Sender<'a> {
             path,
             ..
         } = episode::run(&trial, &mut self.mind(&trial)?, |_| {})?;
-        let way = length(&path);
+        let way = path_length(&path);
         let arrived = reached && way <= most;
         Ok(Home {
             over_shortest: arrived.then_some(way / shortest),

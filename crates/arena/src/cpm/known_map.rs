@@ -20,7 +20,7 @@ pub(super) struct KnownMap<'a> {
     maze: &'a Maze,
     visits: Vec<Visit>,
     /// The first walk along each fragment.
-    walks: BTreeMap<u32, Ends>,
+    walks: BTreeMap<u32, (u32, u32)>,
     /// Fragments from visit to visit, each with its length.
     arcs: Vec<(u32, u32, u32)>,
 }
@@ -31,13 +31,6 @@ struct Visit {
     cell: Cell,
     /// Number of an earlier visit to the same place; the visit's own number if none is known.
     same: u32,
-}
-
-/// The visits at both ends of a fragment.
-#[derive(Clone, Copy, Debug)]
-struct Ends {
-    first: u32,
-    last: u32,
 }
 
 impl<'a> KnownMap<'a> {
@@ -64,20 +57,13 @@ impl<'a> KnownMap<'a> {
         let Some(way) = way else {
             return;
         };
-        let ends = if way.is_forward {
-            Ends {
-                first: from,
-                last: to,
-            }
-        } else {
-            Ends {
-                first: to,
-                last: from,
-            }
+        let (first, last) = match way.is_forward {
+            true => (from, to),
+            false => (to, from),
         };
-        let before = *self.walks.entry(way.fragment).or_insert(ends);
-        self.unify(before.first, ends.first);
-        self.unify(before.last, ends.last);
+        let before = *self.walks.entry(way.fragment).or_insert((first, last));
+        self.unify(before.0, first);
+        self.unify(before.1, last);
     }
 
     /// Returns the length of the shortest known way from start to goal, or `None` if none is known.

@@ -30,8 +30,10 @@ use super::fragments::{DIRECTIONS, along};
 pub struct Layout {
     /// Cell and direction of port 0 of each junction.
     places: BTreeMap<JunctionId, (Cell, Direction)>,
-    fragments: BTreeMap<FragmentId, Lie>,
-    open: Vec<OpenPort>,
+    /// Cells in which each fragment lies.
+    pub fragments: BTreeMap<FragmentId, Lie>,
+    /// The unexplored ports.
+    pub open: Vec<OpenPort>,
 }
 
 /// An unexplored port.
@@ -51,16 +53,7 @@ pub struct Lie {
     /// Cells from − to +, with the places at both ends.
     pub cells: Vec<Cell>,
     /// Whether the fragment's ends are where the maze has them.
-    pub fit: Fit,
-}
-
-/// Agreement of map and maze.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fit {
-    /// Map and maze agree.
-    Agrees,
-    /// The map states that the fragment leads to another place, or to another port of it.
-    Astray,
+    pub is_right: bool,
 }
 
 impl Layout {
@@ -127,15 +120,14 @@ impl Layout {
         let to = *cells.last()?;
         let back = came.opposite();
         let known = self.places.get(&arrive.junction).copied();
-        let is_there = known.is_none_or(|(cell, first)| {
+        let is_right = known.is_none_or(|(cell, first)| {
             let ways = branches(maze, cell, first);
             cell == to && ways.get(arrive.number as usize) == Some(&back)
         });
-        let fit = if is_there { Fit::Agrees } else { Fit::Astray };
         if end.sign == Sign::Plus {
             cells.reverse();
         }
-        self.fragments.insert(end.fragment, Lie { cells, fit });
+        self.fragments.insert(end.fragment, Lie { cells, is_right });
         if known.is_some() {
             return None;
         }
@@ -156,18 +148,6 @@ impl Layout {
     /// Returns all junctions that lie where the map has them, with their cells.
     pub fn places(&self) -> impl Iterator<Item = (JunctionId, Cell)> {
         self.places.iter().map(|(id, (cell, _))| (*id, *cell))
-    }
-
-    /// Returns the cells in which a fragment lies.
-    #[must_use]
-    pub fn fragment(&self, fragment: FragmentId) -> Option<&Lie> {
-        self.fragments.get(&fragment)
-    }
-
-    /// Returns the unexplored ports.
-    #[must_use]
-    pub fn open_ports(&self) -> &[OpenPort] {
-        &self.open
     }
 }
 

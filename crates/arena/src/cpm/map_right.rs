@@ -4,7 +4,7 @@ use tolman_maps::cpm::{CpMap, Junction};
 use tolman_maze::{Cell, Maze};
 
 use super::fragments::{TrueFragments, landmark_at};
-use super::layout::{Fit, Layout};
+use super::layout::Layout;
 
 /// Returns whether a map is that of a maze, as far as the robot has been. The map is laid over the
 /// maze from the start on, port by port:
@@ -30,7 +30,7 @@ pub(super) fn is_map_right(
     });
     let mut laid = BTreeSet::new();
     let are_fragments = map.fragments().all(|(id, _)| {
-        let lie = layout.fragment(id).filter(|lie| lie.fit == Fit::Agrees);
+        let lie = layout.fragments.get(&id).filter(|lie| lie.is_right);
         let ways = lie.and_then(|lie| fragments.driven(lie.cells.iter().copied()));
         ways.is_some_and(|ways| ways.iter().all(|way| laid.insert(way.fragment)))
     });

@@ -32,7 +32,7 @@ pub use distinctness::{Distinctness, WalkPair, distinctness};
 pub(crate) use fragments::tests::LOOP;
 pub use fragments::{TrueFragments, WayOut};
 pub(crate) use fragments::{direction_of, ends_fragments, follow, landmark_at};
-pub use layout::{Fit, Layout, Lie, OpenPort};
+pub use layout::{Layout, Lie, OpenPort};
 pub use lesson::{learn, learn_by, learn_on_pioneer};
 pub use map_right::is_whole_map_right;
 pub use patience::patience;

@@ -2,7 +2,7 @@ use tolman_control::epuck::{RangeCurve, RangeCurveError};
 use tolman_geom::Pose;
 use tolman_sim::robots::{Epuck, EpuckConfig, LaserPioneer, LaserPioneerConfig};
 use tolman_sim::sensors::ResponseCurve;
-use tolman_systems::cpm::{EpuckMeasures, RingAsEpuck, RingMeasures, WalkerConfig};
+use tolman_systems::cpm::{RingAsEpuck, RingMeasures, WalkerConfig};
 
 use crate::course::Course;
 use crate::pioneer::CoursePioneer;
@@ -37,12 +37,9 @@ pub fn slow_epuck() -> EpuckConfig {
 /// # Errors
 /// If the response curve cannot be inverted.
 pub fn walker_config(robot: &EpuckConfig, width: f64) -> Result<WalkerConfig, RangeCurveError> {
-    let measures = EpuckMeasures {
-        curve: curve(&robot.response)?,
-        step_us: robot.step_us,
-        most_wheel_speed: robot.most_wheel_speed,
-    };
-    Ok(WalkerConfig::paper(measures, width))
+    let mut config = WalkerConfig::paper(curve(&robot.response)?, robot.step_us, width);
+    config.pilot.most_wheel_speed = robot.most_wheel_speed;
+    Ok(config)
 }
 
 /// Returns a response curve with its axes exchanged, sampled every millimetre.

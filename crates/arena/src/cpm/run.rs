@@ -102,7 +102,7 @@ impl<B: CpmRobot> CpmRun<B> {
     /// # Errors
     /// If the robot fails.
     pub fn drive_to_goal(&mut self) -> CpmResult<Option<EpisodeSummary>, B> {
-        let plan = self.layer.explorer().mapper.plan(Landmark::Goal);
+        let plan = self.layer.explorer.mapper.plan(Landmark::Goal);
         let driven = plan.map(|plan| self.layer.drive_plan(&mut self.walker, &plan));
         driven.transpose()
     }

@@ -90,7 +90,7 @@ impl<'a> Score<'a> {
         let start = body.path().first();
         let cell = start.and_then(|start| body.world().cell_at(start.position));
         let mut score = Self::new(maze);
-        score.begin_at(run.layer.explorer().mapper.at(), cell);
+        score.begin_at(run.layer.explorer.mapper.at(), cell);
         score
     }
 
@@ -116,7 +116,7 @@ impl<'a> Score<'a> {
         }
         let turn = step.leg.turn;
         let walked = Walked { turn, way, here };
-        self.take_in(&layer.explorer().mapper, arrival, walked, length);
+        self.take_in(&layer.explorer.mapper, arrival, walked, length);
     }
 
     fn take_in(&mut self, mapper: &CpMapper, arrival: MapUpdate, walked: Walked, length: u32) {

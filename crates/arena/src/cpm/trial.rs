@@ -126,7 +126,7 @@ impl CpmTrial<'_> {
             Ok(mut run) => {
                 let played = self.episodes(&mut run, &mut record, see);
                 record.trouble = played.err().map(|error| error.to_string());
-                record.patterns = run.layer.patterns().dictionary().len() as u32;
+                record.patterns = run.layer.patterns.dictionary().len() as u32;
                 record.bumps = run.walker.body().bumps();
                 record.path = run.walker.body().path().to_vec();
             }
@@ -148,7 +148,7 @@ impl CpmTrial<'_> {
             see(layer, walker, step);
         });
         let CpmRun { walker, layer, .. } = &mut *run;
-        let mapper = &layer.explorer().mapper;
+        let mapper = &layer.explorer.mapper;
         record.closures = score.closures_at_the_end(layer.map());
         record.contradictions = mapper.contradictions();
         record.traversals = mapper.traversals();
@@ -242,7 +242,7 @@ pub(super) mod tests {
         };
         let mut versions = Vec::new();
         let record = unlearned.watch(|layer, _, _| {
-            versions.push(layer.patterns().dictionary().version());
+            versions.push(layer.patterns.dictionary().version());
         });
         let record = record.unwrap();
         assert!(
@@ -403,13 +403,13 @@ pub(super) mod tests {
         let mut run = trial.begin().unwrap().unwrap();
         let there = run.pursue(Aim::Find(Landmark::Goal), |_, _, _| {}).unwrap();
         run.layer.optimize().unwrap();
-        let before = run.layer.explorer().mapper.plan(Landmark::Start).unwrap();
+        let before = run.layer.explorer.mapper.plan(Landmark::Start).unwrap();
         let mut tried = 0;
         let back = run.pursue(Aim::WayBack, |_, _, step| {
             tried += u32::from(step.leg.known.is_none());
         });
         assert_eq!(back.unwrap().done, Done::Reached);
-        let after = run.layer.explorer().mapper.plan(Landmark::Goal).unwrap();
+        let after = run.layer.explorer.mapper.plan(Landmark::Goal).unwrap();
         assert!(tried > 0 && after.length < before.length);
         let again = run.drive_to_goal().unwrap().unwrap();
         assert_eq!(again.done, Done::Reached);

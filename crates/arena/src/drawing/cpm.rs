@@ -9,7 +9,7 @@ use tolman_robot::Landmark;
 use tolman_sim::World;
 
 use crate::course::Course;
-use crate::cpm::{Fit, Layout, Lie};
+use crate::cpm::{Layout, Lie};
 use tolman_draw::{
     Drawing, EdgeLine, FloorPlan, GraphEdge, GraphNode, GraphPicture, NodeMark, Series, ZoneStyle,
 };
@@ -58,9 +58,9 @@ pub fn over_maze(map: &CpMap, course: &Course) -> Drawing {
     let unit = (bounds.max.x - bounds.min.x) / WIDTH;
     stubs(&mut graph, &layout, world);
     for (id, fragment, lie, centres) in laid(map, &layout, world) {
-        match lie.fit {
-            Fit::Agrees => plan.way(&centres, series(id)),
-            Fit::Astray => plan.doubtful_way(&centres, series(id)),
+        match lie.is_right {
+            true => plan.way(&centres, series(id)),
+            false => plan.doubtful_way(&centres, series(id)),
         }
         let node = fragment_node(map, id, fragment, point_along(&centres, 0.5));
         add(&mut graph, node);
@@ -144,9 +144,9 @@ pub fn graph(map: &CpMap, course: &Course) -> Drawing {
             let port = fragment.port(sign);
             let place = junctions.iter().find(|(other, _)| *other == port.junction);
             if let Some((_, place)) = place {
-                let line = match lie.fit {
-                    Fit::Agrees => EdgeLine::Plain,
-                    Fit::Astray => EdgeLine::Dashed,
+                let line = match lie.is_right {
+                    true => EdgeLine::Plain,
+                    false => EdgeLine::Dashed,
                 };
                 graph.edge(
                     GraphEdge::between(node, *place)
@@ -241,7 +241,7 @@ fn fragment_note(map: &CpMap, id: FragmentId, fragment: &Fragment) -> String {
 
 /// Draws dashed stubs at unexplored ports.
 fn stubs(graph: &mut GraphPicture, layout: &Layout, world: &World) {
-    for open in layout.open_ports() {
+    for open in &layout.open {
         let at = world.cell_centre(open.cell);
         let on = world.cell_centre(open.next) - at;
         // It is hidden below its junction.
@@ -266,7 +266,7 @@ fn laid<'a>(
     world: &'a World,
 ) -> impl Iterator<Item = (FragmentId, &'a Fragment, &'a Lie, Vec<Point>)> {
     map.fragments().filter_map(move |(id, fragment)| {
-        let lie = layout.fragment(id)?;
+        let lie = layout.fragments.get(&id)?;
         Some((id, fragment, lie, centres(&lie.cells, world)))
     })
 }

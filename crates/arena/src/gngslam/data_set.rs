@@ -1,10 +1,13 @@
-use rand::RngExt;
+use rand::{Rng, RngExt};
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::{Heading, Pose};
-use tolman_maps::place_map::PlaceRecord;
+use tolman_maps::place_map::{
+    FeatureChoice, FeatureError, FeatureTable, ImageForm, PlaceMap, PlaceMapConfig, PlaceMapError,
+    PlaceRecord,
+};
 use tolman_maze::Cell;
 
-use super::{CellGrid, Pitch};
+use super::{CellGrid, Goals, Pitch};
 
 /// Records of one run with the truth beside them (section 3.2).
 #[derive(Clone, Debug, PartialEq)]
@@ -17,8 +20,9 @@ pub struct DataSet {
     pub cells: CellGrid,
     /// The records, in the order in which they were taken.
     pub records: Vec<LabelledRecord>,
-    /// Records that show the goals.
-    pub goals: GoalRecords,
+    /// Index of the record that best shows each goal, as a person would choose it (section 3.4,
+    /// *Score*). It was taken in front of the goal, looking at it.
+    pub goals: Goals<usize>,
 }
 
 /// A record, with the true pose and cell where it was taken.
@@ -34,21 +38,46 @@ pub struct LabelledRecord {
     pub label: Cell,
 }
 
-/// The record that best shows each goal, as a person would choose it (section 3.4, *Score*). It was
-/// taken in front of the goal, looking at it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct GoalRecords {
-    /// Index of the record of the blue goal.
-    pub blue: usize,
-    /// Index of the record of the yellow goal.
-    pub yellow: usize,
+impl DataSet {
+    /// Returns the features of all records.
+    ///
+    /// # Errors
+    /// If a record lacks a feature that is chosen.
+    pub fn table(
+        &self,
+        choice: &FeatureChoice,
+        form: ImageForm,
+    ) -> Result<FeatureTable, FeatureError> {
+        let records = self.records.iter().map(|record| record.record.clone());
+        FeatureTable::of(&records.collect::<Vec<_>>(), choice, form)
+    }
+
+    /// Learns a map of the paper's most accurate features from all records, and returns it with
+    /// those features. It has a node more for each `growth_period` records; `None` for the middle of
+    /// the paper's range.
+    ///
+    /// # Errors
+    /// If a record lacks a feature, or there are fewer than two records.
+    pub fn learn(
+        &self,
+        form: ImageForm,
+        growth_period: Option<u32>,
+        rng: &mut impl Rng,
+    ) -> Result<(FeatureTable, PlaceMap), PlaceMapError> {
+        let table = self.table(&FeatureChoice::default(), form)?;
+        let mut config = PlaceMapConfig::paper();
+        if let Some(period) = growth_period {
+            config.gng.growth_period = period;
+        }
+        let map = PlaceMap::learn(&table, 0..self.records.len(), config, rng)?;
+        Ok((table, map))
+    }
 }
 
 /// Share of wrong labels. Paper: 10 of 1006.
 const WRONG_LABELS: f64 = 0.01;
 
-impl GoalRecords {
+impl Goals<usize> {
     /// Returns the record that shows each goal best. Without records it is number 0, which does not
     /// exist.
     pub(super) fn find(pitch: &Pitch, records: &[LabelledRecord]) -> Self {

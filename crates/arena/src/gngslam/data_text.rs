@@ -23,7 +23,8 @@ use tolman_maps::place_map::PlaceRecord;
 use tolman_maze::Cell;
 use tolman_robot::{Picture, PinholeCamera, Snapshot, Sounding};
 
-use super::{CellGrid, DataSet, GoalRecords, LabelledRecord};
+use super::{CellGrid, DataSet, Goals, LabelledRecord};
+use crate::BoxError;
 
 const FORMAT: &str = "tolman-place-records";
 const VERSION: u32 = 1;
@@ -41,7 +42,7 @@ struct Header {
     seed: u64,
     records: usize,
     cells: CellGrid,
-    goals: GoalRecords,
+    goals: Goals<usize>,
     /// The range sensors, each with the range of the first record.
     sensors: Vec<Sounding>,
     picture: Option<PictureShape>,
@@ -77,69 +78,20 @@ struct Line {
     picture: Option<String>,
 }
 
-/// Reason why a text holds no data set, or a data set has no text.
+/// A line that is not the JSON it ought to be.
 #[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum DataTextError {
-    /// The text is empty.
-    #[error("the file is empty; gather the data again")]
-    Empty,
-    /// A line is not JSON, or lacks what it should hold. The source names the column.
-    #[error("line {line} cannot be read; copy the file again, or gather the data again")]
-    Line {
-        /// Number of the line, from 1.
-        line: usize,
-        /// The parser's error, with its position in the line.
-        source: serde_json::Error,
-    },
-    /// The file has another format.
-    #[error(
-        "line 1: the format is {found:?}, expected {FORMAT:?}; give a file of gathered records"
-    )]
-    Format {
-        /// The value found.
-        found: String,
-    },
-    /// The file has a version that this program does not know.
-    #[error("line 1: the version is {found}, this program reads {VERSION}; update tolman")]
-    Version {
-        /// The version found.
-        found: u32,
-    },
-    /// The number of records differs from the header's.
-    #[error("the file has {found} records, its header says {expected}; copy it again")]
-    Count {
-        /// Number of lines with a record.
-        found: usize,
-        /// Number that the file promises.
-        expected: usize,
-    },
-    /// A record that should show a goal does not exist.
-    #[error(
-        "line 1: `goals` names record {index}, but there are only {records} records; gather the data again"
-    )]
-    Goal {
-        /// Number of the record.
-        index: usize,
-        /// Number of records.
-        records: usize,
-    },
-    /// Something in a line contradicts the header, or other records.
-    #[error("line {line}: {what}; copy the file again, or gather the data again")]
-    Record {
-        /// Number of the line, from 1.
-        line: usize,
-        /// The fault, in words.
-        what: &'static str,
-    },
+#[error("line {line} cannot be read; copy the file again, or gather the data again")]
+struct UnreadableLine {
+    line: usize,
+    source: serde_json::Error,
 }
 
 impl DataSet {
     /// Returns the text of a file. All records must come from the same sensors.
     ///
     /// # Errors
-    /// [`DataTextError::Record`] if they do not.
-    pub fn to_text(&self) -> Result<String, DataTextError> {
+    /// If they do not.
+    pub fn to_text(&self) -> Result<String, BoxError> {
         let header = self.header();
         let mut text = json(1, &header)?;
         for (line, labelled) in (2..).zip(&self.records) {
@@ -167,10 +119,14 @@ impl DataSet {
     /// Reads the text of a file.
     ///
     /// # Errors
-    /// [`DataTextError`] with the line and the repair.
-    pub fn from_text(text: &str) -> Result<Self, DataTextError> {
+    /// If it is damaged: with the line and the repair.
+    pub fn from_text(text: &str) -> Result<Self, BoxError> {
         let mut lines = text.lines();
-        let header = Header::read(lines.next().ok_or(DataTextError::Empty)?)?;
+        let header = Header::read(
+            lines
+                .next()
+                .ok_or("the file is empty; gather the data again")?,
+        )?;
         let read = (2..)
             .zip(lines)
             .map(|(line, text)| header.read_line(line, text));
@@ -186,46 +142,61 @@ impl DataSet {
     }
 }
 
-fn json(line: usize, value: &impl Serialize) -> Result<String, DataTextError> {
+fn json(line: usize, value: &impl Serialize) -> Result<String, BoxError> {
     let written = serde_json::to_string(value);
-    let mut text = written.map_err(|source| DataTextError::Line { line, source })?;
-    text.push('\n');
-    Ok(text)
+    Ok(written.map_err(|source| UnreadableLine { line, source })? + "\n")
+}
+
+fn read_json<'a, T: Deserialize<'a>>(line: usize, text: &'a str) -> Result<T, BoxError> {
+    let read = serde_json::from_str(text);
+    Ok(read.map_err(|source| UnreadableLine { line, source })?)
+}
+
+fn damaged(line: usize, what: &str) -> BoxError {
+    format!("line {line}: {what}; copy the file again, or gather the data again").into()
 }
 
 impl Header {
-    fn read(text: &str) -> Result<Self, DataTextError> {
-        let first = |source| DataTextError::Line { line: 1, source };
-        let Tag { format, version } = serde_json::from_str(text).map_err(first)?;
+    fn read(text: &str) -> Result<Self, BoxError> {
+        let Tag { format, version } = read_json(1, text)?;
         if format != FORMAT {
-            return Err(DataTextError::Format { found: format });
+            return Err(format!(
+                "line 1: the format is {format:?}, expected {FORMAT:?}; give a file of gathered records"
+            )
+            .into());
         }
         if version != VERSION {
-            return Err(DataTextError::Version { found: version });
+            return Err(format!(
+                "line 1: the version is {version}, this program reads {VERSION}; update tolman"
+            )
+            .into());
         }
-        serde_json::from_str(text).map_err(first)
+        read_json(1, text)
     }
 
     /// Checks that `found` records are as many as the header promises, and that each goal's record
     /// is among them.
-    fn check(&self, found: usize) -> Result<(), DataTextError> {
+    fn check(&self, found: usize) -> Result<(), BoxError> {
         let expected = self.records;
         if found != expected {
-            return Err(DataTextError::Count { found, expected });
+            return Err(format!(
+                "the file has {found} records, its header says {expected}; copy it again"
+            )
+            .into());
         }
         let goals = [self.goals.blue, self.goals.yellow];
         match goals.into_iter().find(|index| *index >= found) {
-            Some(index) => Err(DataTextError::Goal {
-                index,
-                records: found,
-            }),
+            Some(index) => Err(format!(
+                "line 1: `goals` names record {index}, but there are only {found} records; gather the data again"
+            )
+            .into()),
             None => Ok(()),
         }
     }
 
     /// Returns the line that is written for one record.
-    fn line(&self, line: usize, labelled: &LabelledRecord) -> Result<Line, DataTextError> {
-        let wrong = |what| DataTextError::Record { line, what };
+    fn line(&self, line: usize, labelled: &LabelledRecord) -> Result<Line, BoxError> {
+        let wrong = |what| damaged(line, what);
         let Snapshot { soundings, picture } = &labelled.record.snapshot;
         let ranges: Vec<f64> = soundings.iter().map(|sounding| sounding.range).collect();
         if self.heard(&ranges).as_ref() != Some(soundings) {
@@ -257,10 +228,9 @@ impl Header {
         (ranges.len() == self.sensors.len()).then(|| readings.collect())
     }
 
-    fn read_line(&self, line: usize, text: &str) -> Result<LabelledRecord, DataTextError> {
-        let wrong = |what| DataTextError::Record { line, what };
-        let read: Line =
-            serde_json::from_str(text).map_err(|source| DataTextError::Line { line, source })?;
+    fn read_line(&self, line: usize, text: &str) -> Result<LabelledRecord, BoxError> {
+        let wrong = |what| damaged(line, what);
+        let read: Line = read_json(line, text)?;
         if !(read.odometry.is_finite() && read.truth.is_finite()) {
             return Err(wrong("a pose has a number that is not finite"));
         }
@@ -273,7 +243,7 @@ impl Header {
             (None, None) => None,
             (Some(shape), Some(text)) => {
                 let picture = shape.unpacked(text);
-                Some(picture.ok_or(wrong("its picture is damaged"))?)
+                Some(picture.ok_or_else(|| wrong("its picture is damaged"))?)
             }
             _ => return Err(wrong("it lacks a picture, or has one that others lack")),
         };
@@ -281,7 +251,8 @@ impl Header {
             record: PlaceRecord {
                 odometry: read.odometry,
                 snapshot: Snapshot {
-                    soundings: soundings.ok_or(wrong("it has too many ranges or too few"))?,
+                    soundings: soundings
+                        .ok_or_else(|| wrong("it has too many ranges or too few"))?,
                     picture,
                 },
             },

@@ -4,7 +4,7 @@ use tolman_systems::gngslam::{Wanderer, WandererConfig};
 use tolman_systems::stream;
 
 use super::data_set::mislabel;
-use super::{DataSet, GoalRecords, LabelledRecord, Pitch};
+use super::{DataSet, Goals, LabelledRecord, Pitch};
 use crate::run::within;
 use crate::{BoxError, Simulated};
 
@@ -72,7 +72,7 @@ pub fn gather_by(
         arena: pitch.course.name.clone(),
         seed,
         cells: pitch.cells,
-        goals: GoalRecords::find(pitch, &records),
+        goals: Goals::find(pitch, &records),
         records,
     })
 }

@@ -24,12 +24,11 @@ mod random_pitch;
 mod score;
 
 pub use cells::CellGrid;
-pub use data_set::{DataSet, GoalRecords, LabelledRecord};
-pub use data_text::DataTextError;
+pub use data_set::{DataSet, LabelledRecord};
 pub use field_from_map::{FieldFrame, FieldFromMap, whole_field};
 pub use gather::{gather, gather_by};
 pub use laid_over::LaidOver;
 pub(crate) use laid_over::rigid_motion;
-pub use pitch::{Goals, PIONEER_2DX, Pitch, PitchError, paper_robot};
+pub use pitch::{Goals, PIONEER_2DX, Pitch, paper_robot};
 pub use point_score::PointScore;
-pub use score::{GoalNodes, PlaceScore, PlaceScorer};
+pub use score::{PlaceScore, PlaceScorer};

@@ -1,18 +1,17 @@
 use core::f64::consts::PI;
 
 use rand::RngExt;
-use thiserror::Error;
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_robot::{Stopping, pioneer_2dx};
-use tolman_sim::robots::{Pioneer2dx, Pioneer2dxConfig, Pioneer2dxError, WheelScale};
+use tolman_sim::robots::{Pioneer2dx, Pioneer2dxConfig, WheelScale};
 use tolman_sim::sensors::{Backdrop, Light};
-use tolman_sim::{Bounds, PlaceError, World, WorldError, WorldFileError};
+use tolman_sim::{Bounds, World};
 use tolman_systems::stream;
 
 use super::CellGrid;
-use crate::Simulated;
-use crate::course::{Course, CourseError};
+use crate::course::Course;
 use crate::pioneer::CORRIDOR_WIDTH;
+use crate::{BoxError, Simulated};
 
 /// An arena of the place map: a course in a free world, and the truth about it.
 #[derive(Clone, Debug)]
@@ -20,8 +19,8 @@ pub struct Pitch {
     /// Walls, goals, windows and furniture. The zone `destination` lies before the blue goal, and
     /// `start` before the yellow one.
     pub course: Course,
-    /// Poses of the arena's goals.
-    pub goals: Goals,
+    /// Middle of each goal's foot, with a heading onto the floor.
+    pub goals: Goals<Pose>,
     /// The 8 × 8 cells over its floor.
     pub cells: CellGrid,
     /// Lighting of the arena.
@@ -30,59 +29,15 @@ pub struct Pitch {
     pub backdrop: Backdrop,
 }
 
-/// Middle of each goal's foot, with a heading onto the floor. In random arenas the goals have other
-/// colours, and the first is called blue.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Goals {
-    /// Pose of the blue goal.
-    pub blue: Pose,
-    /// Pose of the yellow goal.
-    pub yellow: Pose,
-}
-
-/// Reason why there is no such arena, or no robot in it.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum PitchError {
-    /// No arena has this name.
-    #[error(
-        "no arena is called {name:?}; the arenas are `pitch`, `hall`, `l-room` and `random-` with a number, such as `random-7`"
-    )]
-    Unknown {
-        /// The name asked for.
-        name: String,
-    },
-    /// The robot found no place to stand.
-    #[error(
-        "{tries} random places of arena `{name}` were too narrow to turn the robot in; use a larger arena"
-    )]
-    NoRoom {
-        /// Name of the arena.
-        name: String,
-        /// Number of positions tried.
-        tries: u32,
-    },
-    /// The error of the wheels' calibration is outside its range.
-    #[error("`calibration` is {calibration}; give a share from 0 to 0.5")]
-    Calibration {
-        /// The offending share.
-        calibration: f64,
-    },
-    /// The world cannot be built.
-    #[error("no world can be built from the arena; correct its walls")]
-    World(#[from] WorldError),
-    /// The world's file cannot be read.
-    #[error(transparent)]
-    File(#[from] WorldFileError),
-    /// No robot can run in the world.
-    #[error(transparent)]
-    Course(#[from] CourseError),
-    /// The robot cannot be built.
-    #[error("the robot cannot be built; correct its configuration")]
-    Robot(#[from] Pioneer2dxError),
-    /// The robot cannot stand where it begins.
-    #[error(transparent)]
-    Place(#[from] PlaceError),
+/// What there is of each of an arena's two goals. In random arenas the goals have other colours, and
+/// the first is called blue.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Goals<T> {
+    /// That of the blue goal.
+    pub blue: T,
+    /// That of the yellow goal.
+    pub yellow: T,
 }
 
 /// Random streams of an arena's seed, one for each consumer.
@@ -99,7 +54,7 @@ struct Drawn {
     world: &'static str,
     /// Corner in the north-east of the floor, whose south-western corner is the origin.
     corner: Point,
-    goals: Goals,
+    goals: Goals<Pose>,
     windows: Heading,
     floor: [u8; 3],
 }
@@ -158,8 +113,8 @@ impl Pitch {
     /// a seed.
     ///
     /// # Errors
-    /// [`PitchError::Unknown`] if no arena has this name.
-    pub fn named(name: &str) -> Result<Self, PitchError> {
+    /// If no arena has this name.
+    pub fn named(name: &str) -> Result<Self, BoxError> {
         if let Some(drawn) = DRAWN.iter().find(|drawn| drawn.name == name) {
             let world = World::from_json(drawn.world)?;
             let light = Light::daylight(drawn.windows);
@@ -167,18 +122,22 @@ impl Pitch {
         }
         let seed = name.strip_prefix("random-");
         let seed = seed.and_then(|seed| seed.parse().ok());
-        let name = name.to_owned();
-        Self::random(seed.ok_or(PitchError::Unknown { name })?)
+        let unknown = || {
+            format!(
+                "no arena is called {name:?}; the arenas are `pitch`, `hall`, `l-room` and `random-` with a number, such as `random-7`"
+            )
+        };
+        Self::random(seed.ok_or_else(unknown)?)
     }
 
     pub(super) fn of(
         name: &str,
         world: World,
         corner: Point,
-        goals: Goals,
+        goals: Goals<Pose>,
         light: Light,
         floor: [u8; 3],
-    ) -> Result<Self, PitchError> {
+    ) -> Result<Self, BoxError> {
         let body = pioneer_2dx::body();
         Ok(Self {
             course: Course::in_free_world(name, world, CORRIDOR_WIDTH, &body)?,
@@ -200,8 +159,8 @@ impl Pitch {
     /// heading.
     ///
     /// # Errors
-    /// [`PitchError::NoRoom`] if there is no such position.
-    pub fn start(&self, seed: u64) -> Result<Pose, PitchError> {
+    /// If there is no such position.
+    pub fn start(&self, seed: u64) -> Result<Pose, BoxError> {
         let mut rng = stream(seed, START);
         let radius = pioneer_2dx::body().radius() + 0.02;
         let bounds = self.cells.bounds();
@@ -218,17 +177,19 @@ impl Pitch {
             let at = pose.position;
             world.nearest_wall_distance(at) > radius && self.course.leads_on(at)
         };
-        poses.find(is_free).ok_or_else(|| PitchError::NoRoom {
-            name: name.clone(),
-            tries: TRIES,
-        })
+        let narrow = || {
+            format!(
+                "{TRIES} random places of arena `{name}` were too narrow to turn the robot in; use a larger arena"
+            )
+        };
+        Ok(poses.find(is_free).ok_or_else(narrow)?)
     }
 
     /// Returns the [paper's robot](paper_robot) in this arena's light.
     ///
     /// # Errors
     /// As [`paper_robot`].
-    pub fn robot(&self, seed: u64, calibration: f64) -> Result<Pioneer2dxConfig, PitchError> {
+    pub fn robot(&self, seed: u64, calibration: f64) -> Result<Pioneer2dxConfig, BoxError> {
         let mut robot = paper_robot(seed, calibration)?;
         robot.camera.light = self.light;
         robot.camera.backdrop = self.backdrop;
@@ -239,12 +200,12 @@ impl Pitch {
     /// still when the run is over.
     ///
     /// # Errors
-    /// [`PitchError`] if it cannot be built or cannot stand there.
+    /// If it cannot be built or cannot stand there.
     pub fn put(
         &self,
         robot: Pioneer2dxConfig,
         seed: u64,
-    ) -> Result<Stopping<Simulated<Pioneer2dx>>, PitchError> {
+    ) -> Result<Stopping<Simulated<Pioneer2dx>>, BoxError> {
         let robot = Pioneer2dx::new(robot)?;
         let robot = self.course.robot_at(self.start(seed)?, robot, seed)?;
         Ok(Stopping::new(robot))
@@ -258,10 +219,10 @@ pub const PIONEER_2DX: &str = "Pioneer 2-DX";
 /// `calibration`, drawn from `seed`; with 0 the wheels only slip.
 ///
 /// # Errors
-/// [`PitchError::Calibration`] if `calibration` is not from 0 to 0.5.
-pub fn paper_robot(seed: u64, calibration: f64) -> Result<Pioneer2dxConfig, PitchError> {
+/// If `calibration` is not from 0 to 0.5.
+pub fn paper_robot(seed: u64, calibration: f64) -> Result<Pioneer2dxConfig, BoxError> {
     if !(0.0..=0.5).contains(&calibration) {
-        return Err(PitchError::Calibration { calibration });
+        return Err(format!("`calibration` is {calibration}; give a share from 0 to 0.5").into());
     }
     let mut rng = stream(seed, WHEELS);
     let mut scale = || 1.0 + calibration * rng.random_range(-1.0..=1.0);

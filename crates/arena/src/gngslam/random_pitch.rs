@@ -7,7 +7,8 @@ use tolman_sim::sensors::Light;
 use tolman_sim::{Area, Bounds, Material, WallSegment, World, Zone};
 use tolman_systems::stream;
 
-use super::pitch::{Goals, Pitch, PitchError};
+use super::pitch::{Goals, Pitch};
+use crate::BoxError;
 
 /// Length of a side, m.
 const SIDE: core::ops::Range<f64> = 3.0..6.5;
@@ -114,7 +115,7 @@ impl Pitch {
     ///
     /// # Errors
     /// None.
-    pub fn random(seed: u64) -> Result<Self, PitchError> {
+    pub fn random(seed: u64) -> Result<Self, BoxError> {
         let rng = &mut stream(seed, 0);
         let corner = Point::new(rng.random_range(SIDE), rng.random_range(SIDE));
         let windows = rng.random_range(0_u32..4) as usize;

@@ -6,22 +6,13 @@ use tolman_quantizers::UnitId;
 use tolman_sim::Bounds;
 
 use super::point_score::middle;
-use super::{DataSet, FieldFrame, FieldFromMap, GoalRecords, Pitch, PointScore, whole_field};
-
-/// Nodes of a map nearest to the goals.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct GoalNodes {
-    /// Node nearest to the blue goal.
-    pub blue: UnitId,
-    /// Node nearest to the yellow goal.
-    pub yellow: UnitId,
-}
+use super::{DataSet, FieldFrame, FieldFromMap, Goals, Pitch, PointScore, whole_field};
 
 /// Scores place maps by the true positions of their records (section 3.4, "Score").
 #[derive(Clone, Debug)]
 pub struct PlaceScorer {
     cells: Vec<Cell>,
-    goals: GoalRecords,
+    goals: Goals<usize>,
     field: FieldFrame,
 }
 
@@ -50,7 +41,7 @@ impl PlaceScorer {
     /// Returns the scorer for the true cells of the records, from record 0 on. `yellow_from_blue`
     /// is the true direction from the blue goal to the yellow goal.
     #[must_use]
-    pub fn of(cells: Vec<Cell>, goals: GoalRecords, yellow_from_blue: Heading) -> Self {
+    pub fn of(cells: Vec<Cell>, goals: Goals<usize>, yellow_from_blue: Heading) -> Self {
         let extent = match cells.is_empty() {
             true => whole_field(),
             false => Bounds::of(cells.iter().copied().map(middle)),
@@ -117,8 +108,12 @@ impl PlaceScorer {
     ///
     /// # Errors
     /// As [`score`](Self::score).
-    pub fn goals(&self, map: &PlaceMap, table: &FeatureTable) -> Result<GoalNodes, PlaceMapError> {
-        Ok(GoalNodes {
+    pub fn goals(
+        &self,
+        map: &PlaceMap,
+        table: &FeatureTable,
+    ) -> Result<Goals<UnitId>, PlaceMapError> {
+        Ok(Goals {
             blue: nearest(map, table, self.goals.blue)?,
             yellow: nearest(map, table, self.goals.yellow)?,
         })
@@ -133,7 +128,7 @@ impl PlaceScorer {
         map: &PlaceMap,
         table: &FeatureTable,
     ) -> Result<Option<FieldFromMap>, PlaceMapError> {
-        let GoalNodes { blue, yellow } = self.goals(map, table)?;
+        let Goals { blue, yellow } = self.goals(map, table)?;
         let (Some(from), Some(to)) = (map.position(blue), map.position(yellow)) else {
             return Ok(None);
         };
@@ -143,9 +138,7 @@ impl PlaceScorer {
 }
 
 fn nearest(map: &PlaceMap, table: &FeatureTable, record: usize) -> Result<UnitId, PlaceMapError> {
-    let count = table.len();
-    let missing = PlaceMapError::NoSuchRecord { record, count };
-    map.nearest_row(table.row(record).ok_or(missing)?)
+    map.nearest_row(table.row(record)?)
 }
 
 /// Returns a fifth of the numbers below `count`, rounded, each at most once.
@@ -218,7 +211,7 @@ mod tests {
         (records, cells)
     }
 
-    const GOALS: GoalRecords = GoalRecords {
+    const GOALS: Goals<usize> = Goals {
         blue: 1000,
         yellow: 1001,
     };

@@ -1,4 +1,5 @@
 use thiserror::Error;
+use tolman_planners::steps_from;
 
 use super::map::{CpMap, JunctionId};
 
@@ -71,21 +72,10 @@ impl CpMap {
         let Some(first) = self.junctions.rank(from) else {
             return 0;
         };
-        let mut seen = alloc::vec![false; self.junctions.len()];
-        seen[first] = true;
-        let mut open = alloc::vec![first];
-        let mut count = 0;
-        while let Some(rank) = open.pop() {
-            count += 1;
-            for port in self.ports_at(rank) {
-                if let Some((next, _)) = self.led_to(*port)
-                    && !core::mem::replace(&mut seen[next], true)
-                {
-                    open.push(next);
-                }
-            }
-        }
-        count
+        steps_from(self, [first as u32])
+            .into_iter()
+            .flatten()
+            .count()
     }
 }
 

@@ -514,8 +514,7 @@ impl Mapper for PlaceGraph {
             landmark: None,
         });
         let links = self.links.iter().copied();
-        let links =
-            links.flat_map(|(a, b)| [MapLink { from: a, to: b }, MapLink { from: b, to: a }]);
+        let links = links.flat_map(|(a, b)| MapLink::both_ways(a, b));
         MapView {
             places: places.collect(),
             links: links.collect(),

@@ -4,7 +4,10 @@ use alloc::vec::Vec;
 
 use super::feature_space::Part;
 use super::record_span::{RecordSpan, Spanned};
-use super::{FeatureChoice, FeatureError, FeatureGroup, FeatureScaling, FeatureSpace, PlaceRecord};
+use super::{
+    FeatureChoice, FeatureError, FeatureGroup, FeatureScaling, FeatureSpace, PlaceMapError,
+    PlaceRecord,
+};
 
 /// Form in which a table stores images.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -87,10 +90,14 @@ impl FeatureTable {
         &self.space
     }
 
-    /// Returns the features of a record; `None` beyond the last record.
-    #[must_use]
-    pub fn row(&self, record: usize) -> Option<&[f32]> {
-        self.rows.get(record).map(Vec::as_slice)
+    /// Returns the features of a record.
+    ///
+    /// # Errors
+    /// [`PlaceMapError::NoSuchRecord`] beyond the last record.
+    pub fn row(&self, record: usize) -> Result<&[f32], PlaceMapError> {
+        let count = self.len();
+        let row = self.rows.get(record).map(Vec::as_slice);
+        row.ok_or(PlaceMapError::NoSuchRecord { record, count })
     }
 
     /// Returns the number of records.

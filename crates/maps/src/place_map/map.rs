@@ -94,11 +94,7 @@ impl PlaceMap {
         config: PlaceMapConfig,
         rng: &mut impl Rng,
     ) -> Result<Self, PlaceMapError> {
-        let rows = records.into_iter().map(|record| {
-            let count = table.len();
-            let missing = PlaceMapError::NoSuchRecord { record, count };
-            table.row(record).ok_or(missing)
-        });
+        let rows = records.into_iter().map(|record| table.row(record));
         let rows: Vec<&[f32]> = rows.collect::<Result<_, _>>()?;
         let mut map = Self::new(Arc::clone(table.space()), config)?;
         map.gng.begin_with(&two_of(&rows, rng)?)?;
@@ -239,20 +235,16 @@ impl Mapper for PlaceMap {
 
     fn map(&self) -> MapView {
         let network = self.network();
+        let edges = network.edges().map(|edge| edge.ends);
+        let links = edges.flat_map(|(a, b)| MapLink::both_ways(a.0, b.0));
         let place = |node: UnitId| MapPlace {
             id: node.0,
             position: self.position(node),
             landmark: None,
         };
-        let both = |(a, b): (UnitId, UnitId)| {
-            [(a, b), (b, a)].map(|(from, to)| MapLink {
-                from: from.0,
-                to: to.0,
-            })
-        };
         MapView {
             places: network.ids().map(place).collect(),
-            links: network.edges().flat_map(|edge| both(edge.ends)).collect(),
+            links: links.collect(),
         }
     }
 

@@ -24,8 +24,8 @@ record! {
 impl DictionaryRun {
     pub(super) fn of(patterns: &CommonPatterns) -> Self {
         Self {
-            units: patterns.unit_count(),
-            clusters: patterns.cluster_count(),
+            units: patterns.unit_count,
+            clusters: patterns.cluster_count,
         }
     }
 

@@ -129,7 +129,7 @@ fn measure(trial: &CpmTrial<'_>) -> Result<Fields, BoxError> {
     let last = known.iter().position(|known| *known == found.fragments);
     found.seconds = last.map(|last| times[..=last].iter().sum());
     found.within_bound = found.seconds.is_some_and(|seconds| seconds <= found.bound);
-    found.traversals = run.layer.explorer().mapper.traversals();
+    found.traversals = run.layer.explorer.mapper.traversals();
     let to_best = |best: u32| f64::from(found.traversals) / f64::from(best);
     found.traversals_to_best = found.best.filter(|_| found.finished).map(to_best);
     found.map_right = found.finished && last.is_some() && is_whole_map_right(run.layer.map(), maze);

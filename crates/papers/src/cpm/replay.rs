@@ -127,7 +127,7 @@ impl<'a> Watch<'a> {
         let fragments = map.fragments().len() as f64;
         self.fragments.sample(now, fragments);
         self.update(map, now);
-        let here = Part::Junction(layer.explorer().mapper.at().junction);
+        let here = Part::Junction(layer.explorer.mapper.at().junction);
         if let Some(index) = self.live.get(&here) {
             self.nodes[*index].visits.push(now);
         }
@@ -146,7 +146,7 @@ impl<'a> Watch<'a> {
             }));
         }
         for (id, fragment) in map.fragments() {
-            let course = layout.fragment(id);
+            let course = layout.fragments.get(&id);
             parts.extend(course.map(|course| {
                 let facts = vec![
                     Fact::new("observations", fragment.patterns.len().to_string()),

@@ -10,6 +10,7 @@ use tolman_arena::course::Course;
 use tolman_arena::cpm::{BendLikeness, CpmTrial, TrialRecord, epuck};
 use tolman_experiment::Record as _;
 use tolman_experiment::{BoxError, Fields, Job, Metric, Options, Row, Table, record, require};
+use tolman_geom::path_length;
 use tolman_maps::cpm::{FragmentMatching, Similarity};
 use tolman_systems::cpm::{CommonPatterns, CpmConfig, Mode};
 
@@ -450,14 +451,11 @@ pub(super) fn metres(record: &TrialRecord) -> f64 {
         .path
         .get(..record.second_from)
         .unwrap_or(&record.path);
-    let steps = first.windows(2);
-    steps
-        .map(|pair| (pair[1].position - pair[0].position).norm())
-        .sum()
+    path_length(first)
 }
 
 /// Returns the share of `part` in the sum of both; `None` if that is 0.
-fn share(part: u32, rest: u32) -> Option<f64> {
+pub(super) fn share(part: u32, rest: u32) -> Option<f64> {
     (part + rest > 0).then(|| f64::from(part) / f64::from(part + rest))
 }
 

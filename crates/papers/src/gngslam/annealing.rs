@@ -10,7 +10,7 @@ use super::search_space::Parameters;
 const LAST: f64 = 0.0099;
 
 /// A map of a search.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Tried<T> {
     pub(super) parameters: Parameters,
     /// Map that was learned.
@@ -28,7 +28,7 @@ pub(super) struct Annealing<T> {
     tried: Vec<Tried<T>>,
 }
 
-impl<T: Copy> Annealing<T> {
+impl<T: Clone> Annealing<T> {
     pub(super) const fn new(steps: u32) -> Self {
         Self {
             steps,
@@ -53,7 +53,7 @@ impl<T: Copy> Annealing<T> {
                 score,
             });
         }
-        Ok(self.tried[number as usize])
+        Ok(self.tried[number as usize].clone())
     }
 
     /// Returns the parameters of the next map.

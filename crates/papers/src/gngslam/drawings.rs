@@ -1,6 +1,6 @@
 //! Maps with each node's image at its place, like figures 4.3, A.1 and A.2.
 
-use tolman_arena::gngslam::{CellGrid, FieldFromMap, GoalNodes};
+use tolman_arena::gngslam::{CellGrid, FieldFromMap, Goals};
 use tolman_draw::{
     Axis, Chart, Drawing, Figure, GraphNode, GraphPicture, Image, NodeMark, Series, Tiles,
 };
@@ -113,10 +113,10 @@ impl Searches {
         let places = self.places(setting);
         let table = places.table(setting.set.image())?;
         let scorer = places.scorer(setting.stretch)?;
-        let Some(field_from_map) = scorer.field_from_map(&map, table)? else {
+        let Some(field_from_map) = scorer.field_from_map(&map, &table)? else {
             return Ok(None);
         };
-        let goals = scorer.goals(&map, table)?;
+        let goals = scorer.goals(&map, &table)?;
         drawn(&map, &field_from_map, goals).map(Some)
     }
 }
@@ -175,7 +175,7 @@ fn upright(at: Point) -> Point {
 fn drawn(
     map: &PlaceMap,
     field_from_map: &FieldFromMap,
-    goals: GoalNodes,
+    goals: Goals<UnitId>,
 ) -> Result<Drawing, BoxError> {
     let mut chart = Chart::new(axis("x, cells"), axis("y, cells"))
         .sized(WIDTH, WIDTH)

@@ -6,10 +6,7 @@ use tolman_arena::run::{TaskEnd, within};
 use tolman_draw::{Figure, FloorPlan, GraphNode, NodeMark, Series};
 use tolman_experiment::{BoxError, Fields, Job, Options, Record, Row, Run, Table, record};
 use tolman_geom::{Point, Pose};
-use tolman_maps::place_map::{
-    ColourSpace, FeatureChoice, FeatureTable, ImageFeature, ImageForm, PlaceMap, PlaceMapConfig,
-    PlaceRecord,
-};
+use tolman_maps::place_map::{ImageForm, PlaceMap};
 use tolman_systems::gngslam::{PlacePilot, PlacePilotConfig, Wanderer, WandererConfig};
 use tolman_systems::stream;
 
@@ -132,18 +129,13 @@ fn drive_place_map(
     let world_from_map = robot.truth().pose;
     let mut wanderer = Wanderer::new(WandererConfig::paper(), seed);
     let data = gather_by(&pitch, &mut robot, &mut wanderer, seed, records)?;
-    let known = data.records.iter().map(|record| record.record.clone());
-    let known: Vec<PlaceRecord> = known.collect();
-    let choice = FeatureChoice::paper(ImageFeature::small(ColourSpace::Hsv));
-    let table = FeatureTable::of(&known, &choice, ImageForm::Pixels)?;
     let mut rng = stream(seed, DRIVES_STREAM);
-    let mut config = PlaceMapConfig::paper();
-    config.gng.growth_period = period;
-    let map = PlaceMap::learn(&table, 0..known.len(), config, &mut rng)?;
+    let (_, map) = data.learn(ImageForm::Pixels, Some(period), &mut rng)?;
     let mut driven = Vec::new();
     for _ in 0..drives {
-        let wanted = rng.random_range(0..known.len() as u32) as usize;
-        let goal = map.nearest(&known[wanted])?;
+        let wanted = rng.random_range(0..data.records.len() as u32) as usize;
+        let wanted = &data.records[wanted];
+        let goal = map.nearest(&wanted.record)?;
         let mut pilot = PlacePilot::new(&map, PlacePilotConfig::pioneer_2dx(), goal);
         let mut path = vec![robot.truth().pose.position];
         let ended = within(MOST_PIECES, || {
@@ -153,7 +145,7 @@ fn drive_place_map(
         })?;
         driven.push(PlaceDrive {
             path,
-            goal: data.records[wanted].truth.position,
+            goal: wanted.truth.position,
             end: ended.end,
         });
     }

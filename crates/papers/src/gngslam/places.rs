@@ -1,14 +1,15 @@
 //! The records of the pitch and their features, gathered when they are first needed.
 
-use std::sync::OnceLock;
+use alloc::sync::Arc;
 
 use serde::Serialize;
 use tolman_arena::gngslam::{DataSet, Pitch, PlaceScorer, gather, whole_field};
 use tolman_experiment::BoxError;
-use tolman_maps::place_map::{FeatureChoice, FeatureScaling, FeatureTable, ImageForm, PlaceRecord};
+use tolman_maps::place_map::{FeatureChoice, FeatureScaling, FeatureTable, ImageForm};
 use tolman_sim::robots::Pioneer2dxConfig;
 
 use super::sets::{IMAGES, Source, Stretch};
+use crate::kept::Kept;
 
 /// The paper's number of records.
 const RECORDS: u32 = 1006;
@@ -21,9 +22,9 @@ const FORM: ImageForm = ImageForm::Span { left_out: 0.0 };
 pub(super) struct Places {
     seed: u64,
     source: Source,
-    gathered: Once<Gathered>,
+    gathered: Kept<(), Gathered>,
     /// Tables of features, by image.
-    tables: [Once<FeatureTable>; IMAGES.len()],
+    tables: Kept<usize, FeatureTable>,
 }
 
 #[derive(Debug)]
@@ -41,21 +42,13 @@ pub(super) struct Config {
     robot: Pioneer2dxConfig,
 }
 
-/// A value that is made once, or the reason why it could not be made.
-type Once<T> = OnceLock<Result<T, String>>;
-
-fn once<T>(cell: &Once<T>, make: impl FnOnce() -> Result<T, BoxError>) -> Result<&T, BoxError> {
-    let made = cell.get_or_init(|| make().map_err(|error| error.to_string()));
-    made.as_ref().map_err(|error| error.clone().into())
-}
-
 impl Places {
-    pub(super) const fn new(seed: u64, source: Source) -> Self {
+    pub(super) fn new(seed: u64, source: Source) -> Self {
         Self {
             seed,
             source,
-            gathered: OnceLock::new(),
-            tables: [const { OnceLock::new() }; IMAGES.len()],
+            gathered: Kept::default(),
+            tables: Kept::default(),
         }
     }
 
@@ -70,8 +63,8 @@ impl Places {
         })
     }
 
-    fn gathered(&self) -> Result<&Gathered, BoxError> {
-        once(&self.gathered, || {
+    fn gathered(&self) -> Result<Arc<Gathered>, BoxError> {
+        self.gathered.get((), || {
             let pitch = Pitch::named("pitch")?;
             let robot = pitch.robot(self.seed, self.source.calibration)?;
             let data = gather(&pitch, robot, self.seed, RECORDS)?;
@@ -85,19 +78,17 @@ impl Places {
     }
 
     /// Returns the features of all records, with the image of this index among [`IMAGES`].
-    pub(super) fn table(&self, image: usize) -> Result<&FeatureTable, BoxError> {
-        once(&self.tables[image], || {
-            let records = self.gathered()?.data.records.iter();
-            let records: Vec<PlaceRecord> = records.map(|record| record.record.clone()).collect();
+    pub(super) fn table(&self, image: usize) -> Result<Arc<FeatureTable>, BoxError> {
+        self.tables.get(image, || {
             let choice = FeatureChoice::paper_with_sonar(IMAGES[image]);
             let choice = choice.scaled(self.source.scaling);
-            Ok(FeatureTable::of(&records, &choice, FORM)?)
+            Ok(self.gathered()?.data.table(&choice, FORM)?)
         })
     }
 
     /// Returns the scorer for maps of these records.
     pub(super) fn scorer(&self, stretch: Stretch) -> Result<PlaceScorer, BoxError> {
-        let Gathered { pitch, data } = self.gathered()?;
+        let Gathered { pitch, data } = &*self.gathered()?;
         let scorer = PlaceScorer::paper(data, pitch);
         Ok(match stretch {
             Stretch::Visited => scorer,

@@ -1,21 +1,19 @@
 //! All searches for parameters. They are kept while the experiment runs, because each map depends
 //! on those before it.
 
-use alloc::collections::BTreeMap;
-use alloc::sync::Arc;
 use std::sync::{Mutex, PoisonError};
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use tolman_arena::gngslam::PlaceScore;
 use tolman_experiment::{BoxError, run_seed};
 use tolman_maps::place_map::PlaceMap;
 
 use super::MapRun;
-use super::annealing::{Annealing, Tried};
+use super::annealing::Annealing;
 use super::places::Places;
 use super::search_space::Parameters;
 use super::sets::{SOURCES, Setting, settings};
+use crate::kept::Kept;
 
 /// Number of maps of a search: the paper's n. Runs 0 to 99 of a row are its first search, runs 100
 /// to 199 its second, and so on.
@@ -29,17 +27,7 @@ pub(super) struct Searches {
     /// Records by source.
     places: [Places; SOURCES.len()],
     /// Searches by row and number. A caller waits while another one works on the same search.
-    started: Mutex<BTreeMap<(usize, u32), Shared>>,
-}
-
-type Shared = Arc<Mutex<Annealing<Learned>>>;
-
-/// A learned map and its score.
-#[derive(Clone, Copy, Debug)]
-struct Learned {
-    nodes: usize,
-    /// Score; `None` for a useless map.
-    score: Option<PlaceScore>,
+    started: Kept<(usize, u32), Mutex<Annealing<MapRun>>>,
 }
 
 impl Searches {
@@ -48,7 +36,7 @@ impl Searches {
         Self {
             seed,
             places: SOURCES.map(|source| Places::new(records, source)),
-            started: Mutex::default(),
+            started: Kept::default(),
         }
     }
 
@@ -67,20 +55,16 @@ impl Searches {
         let setting = settings()[row];
         let first = run - run % MAPS;
         let seed = |step: u32| run_seed(self.seed, setting.table, first + step);
-        let shared = self.shared(row, run / MAPS);
-        let mut search = shared.lock().unwrap_or_else(PoisonError::into_inner);
+        let kept = self.started.get((row, run / MAPS), || {
+            Ok::<_, BoxError>(Mutex::new(Annealing::new(MAPS)))
+        })?;
+        let mut search = kept.lock().unwrap_or_else(PoisonError::into_inner);
         let tried = search.map(
             run % MAPS,
             |step| stream(seed(step), 0),
             |step, parameters| self.scored(&setting, parameters, seed(step)),
         )?;
-        Ok(record(&tried))
-    }
-
-    fn shared(&self, row: usize, number: u32) -> Shared {
-        let mut started = self.started.lock().unwrap_or_else(PoisonError::into_inner);
-        let search = started.entry((row, number));
-        Arc::clone(search.or_insert_with(|| Arc::new(Mutex::new(Annealing::new(MAPS)))))
+        Ok(tried.map)
     }
 
     /// Learns a map and returns it with its scores.
@@ -89,15 +73,22 @@ impl Searches {
         setting: &Setting,
         parameters: &Parameters,
         seed: u64,
-    ) -> Result<(Learned, f64), BoxError> {
+    ) -> Result<(MapRun, f64), BoxError> {
         let map = self.learn(setting, parameters, seed)?;
         let places = self.places(setting);
         let scorer = places.scorer(setting.stretch)?;
         let table = places.table(setting.set.image())?;
-        let score = scorer.score(&map, table, &mut stream(seed, 2))?;
-        let nodes = map.network().len();
-        let centre = score.map_or(0.0, |score| score.mean.by_centre);
-        Ok((Learned { nodes, score }, centre))
+        let score = scorer.score(&map, &table, &mut stream(seed, 2))?;
+        let run = MapRun {
+            score: score.map(|score| score.mean.by_centre),
+            border_score: score.map(|score| score.mean.by_border),
+            useless: score.is_none(),
+            mirrored: score.map(|score| score.mirrored),
+            nodes: Some(map.network().len()),
+            parameters: parameters.0.into(),
+        };
+        let centre = run.score.unwrap_or(0.0);
+        Ok((run, centre))
     }
 
     /// Learns the map of a run.
@@ -111,19 +102,7 @@ impl Searches {
         let table = places.table(setting.set.image())?;
         let config = parameters.config(setting.set.with_sonar);
         let rng = &mut stream(seed, 1);
-        Ok(PlaceMap::learn(table, 0..places.count()?, config, rng)?)
-    }
-}
-
-fn record(tried: &Tried<Learned>) -> MapRun {
-    let Learned { nodes, score } = tried.map;
-    MapRun {
-        score: score.map(|score| score.mean.by_centre),
-        border_score: score.map(|score| score.mean.by_border),
-        useless: score.is_none(),
-        mirrored: score.map(|score| score.mirrored),
-        nodes: Some(nodes),
-        parameters: tried.parameters.0.into(),
+        Ok(PlaceMap::learn(&table, 0..places.count()?, config, rng)?)
     }
 }
 

@@ -18,8 +18,10 @@ pub struct CommonPatterns {
     /// Units of SOINN with their patterns. A unit holds the observation and the one seen when
     /// walking the other way.
     units: Vec<([f64; FEATURES], PatternId)>,
-    unit_count: u32,
-    cluster_count: u32,
+    /// Number of SOINN's units.
+    pub unit_count: u32,
+    /// Number of clusters of the units.
+    pub cluster_count: u32,
 }
 
 /// Value of the landmark element at a landmark.
@@ -226,18 +228,6 @@ impl CommonPatterns {
     #[must_use]
     pub const fn dictionary(&self) -> &Dictionary {
         &self.dictionary
-    }
-
-    /// Returns the number of SOINN's units.
-    #[must_use]
-    pub const fn unit_count(&self) -> u32 {
-        self.unit_count
-    }
-
-    /// Returns the number of clusters of the units.
-    #[must_use]
-    pub const fn cluster_count(&self) -> u32 {
-        self.cluster_count
     }
 }
 

@@ -18,15 +18,6 @@ pub enum Aim {
     Shortest,
 }
 
-/// Decision at a junction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum JunctionDecision {
-    /// Turn and follow the fragment.
-    Go(Leg),
-    /// Nothing is left to do for this aim.
-    Done(Done),
-}
-
 /// Walk along one fragment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Leg {

@@ -1,4 +1,5 @@
 use alloc::collections::BTreeMap;
+use core::ops::ControlFlow;
 
 use rand::{Rng, RngExt};
 use tolman_maps::cpm::{
@@ -8,7 +9,7 @@ use tolman_maps::cpm::{
 use tolman_robot::Landmark;
 
 use super::config::{CpmConfig, Onward};
-use super::decision::{Aim, Done, JunctionDecision, Leg};
+use super::decision::{Aim, Done, Leg};
 
 /// Layer 3: "it makes a decision for the robot, and collects the path-fragment representation".
 ///
@@ -82,12 +83,12 @@ impl Explorer {
     ///
     /// O(fragments · log fragments); [`Aim::WayBack`] and [`Aim::Shortest`] take as long for each
     /// junction.
-    pub fn decide(&self, aim: Aim, rng: &mut impl Rng) -> JunctionDecision {
+    pub fn decide(&self, aim: Aim, rng: &mut impl Rng) -> ControlFlow<Done, Leg> {
         if let Some(done) = self.is_done(aim) {
-            return JunctionDecision::Done(done);
+            return ControlFlow::Break(done);
         }
         if self.mapper.traversals() >= self.config.most_traversals {
-            return JunctionDecision::Done(Done::OutOfPatience);
+            return ControlFlow::Break(Done::OutOfPatience);
         }
         let leg = match aim {
             Aim::Find(landmark) => self.towards(landmark).or_else(|| self.explore(rng)),
@@ -97,11 +98,9 @@ impl Explorer {
             Aim::Shortest => self.towards_helpful(rng),
         };
         match (leg, aim) {
-            (Some(leg), _) => JunctionDecision::Go(leg),
-            (None, Aim::Explore | Aim::Check | Aim::Shortest) => {
-                JunctionDecision::Done(Done::Reached)
-            }
-            (None, _) => JunctionDecision::Done(Done::NotThere),
+            (Some(leg), _) => ControlFlow::Continue(leg),
+            (None, Aim::Explore | Aim::Check | Aim::Shortest) => ControlFlow::Break(Done::Reached),
+            (None, _) => ControlFlow::Break(Done::NotThere),
         }
     }
 

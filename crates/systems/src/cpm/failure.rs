@@ -1,6 +1,6 @@
 use thiserror::Error;
 use tolman_geom::IntervalError;
-use tolman_maps::cpm::{CpmError, LocalizeError, Sighting};
+use tolman_maps::cpm::{CpmError, LocalizeError};
 use tolman_robot::Robot;
 
 use super::walker::WalkError;
@@ -27,12 +27,4 @@ pub enum CpmFailure<E> {
     /// The map has no start.
     #[error("the map has no start to be put back to; mark the start of the maze")]
     NoStart,
-    /// The robot is not where its map begins.
-    #[error(
-        "the robot is at {found}, which is not where its map begins; put it at the start of the maze in which the map was learned"
-    )]
-    NotTheStart {
-        /// Sighting of the robot's place.
-        found: Sighting,
-    },
 }

@@ -11,7 +11,7 @@ use tolman_robot::Landmark;
 
 use super::common_patterns::CommonPatterns;
 use super::config::CpmConfig;
-use super::decision::{Aim, Done, JunctionDecision, Leg};
+use super::decision::{Aim, Done, Leg};
 use super::episode::{Begun, EpisodeSummary};
 use super::explorer::Explorer;
 use super::failure::{CpmFailure, CpmResult};
@@ -25,11 +25,13 @@ use super::walker_config::HeadingBy;
 /// time.
 #[derive(Clone, Debug)]
 pub struct Layer3 {
-    patterns: CommonPatterns,
+    /// The common patterns, including those learned on the way.
+    pub patterns: CommonPatterns,
     /// Distance from all patterns beyond which an observation becomes a new pattern; `None` to
     /// learn no more.
-    novelty: Option<f64>,
-    explorer: Explorer,
+    pub novelty: Option<f64>,
+    /// The explorer, which decides by the map.
+    pub explorer: Explorer,
 }
 
 /// Bound on the error of dead reckoning along a fragment, m: a third of a corridor's width, so that
@@ -76,21 +78,9 @@ pub struct FragmentStep {
 }
 
 impl Layer3 {
-    /// Returns layer 3 of a robot that knows these patterns and decides by `explorer`.
-    ///
-    /// An observation farther than `novelty` from all patterns becomes a new pattern (section 8,
-    /// "the CPs must be learned incrementally"). With `None` it learns no further ones.
-    #[must_use]
-    pub const fn new(patterns: CommonPatterns, novelty: Option<f64>, explorer: Explorer) -> Self {
-        Self {
-            patterns,
-            novelty,
-            explorer,
-        }
-    }
-
-    /// Lets a robot look round and begin its map there. `patterns` and `novelty` are those of
-    /// [`new`](Self::new).
+    /// Lets a robot look round and begin its map there. An
+    /// observation farther than `novelty` from all patterns becomes a new pattern (section 8, "the
+    /// CPs must be learned incrementally").
     ///
     /// # Errors
     /// [`CpmFailure`](super::CpmFailure).
@@ -100,27 +90,11 @@ impl Layer3 {
         novelty: Option<f64>,
         config: CpmConfig,
     ) -> CpmResult<Self, B> {
-        let explorer = Explorer::new(config, walker.begin()?)?;
-        Ok(Self::new(patterns, novelty, explorer))
-    }
-
-    /// Lets a robot with a map look round. The map uses these patterns and has to begin there.
-    ///
-    /// # Errors
-    /// [`CpmFailure`](super::CpmFailure), also if the robot is somewhere else.
-    pub fn resume<B: CpmRobot>(
-        walker: &mut Walker<B>,
-        patterns: CommonPatterns,
-        config: CpmConfig,
-        map: CpMap,
-    ) -> CpmResult<Self, B> {
-        let at = map.start().ok_or(CpmFailure::NoStart)?;
-        let expected = map.junction(at.junction).map(Junction::sighting);
-        let found = walker.begin()?;
-        if expected != Some(found) {
-            return Err(CpmFailure::NotTheStart { found });
-        }
-        Ok(Self::resume_at(patterns, config, map, at)?)
+        Ok(Self {
+            patterns,
+            novelty,
+            explorer: Explorer::new(config, walker.begin()?)?,
+        })
     }
 
     /// Returns layer 3 of a robot with a map in these patterns, at a port of that map.
@@ -133,8 +107,11 @@ impl Layer3 {
         map: CpMap,
         at: Port,
     ) -> Result<Self, CpmError> {
-        let explorer = Explorer::resume(config, map, at)?;
-        Ok(Self::new(patterns, None, explorer))
+        Ok(Self {
+            patterns,
+            novelty: None,
+            explorer: Explorer::resume(config, map, at)?,
+        })
     }
 
     /// Takes in that the robot was put back to the beginning of its map.
@@ -147,27 +124,10 @@ impl Layer3 {
         Ok(self.explorer.mapper.place(start)?)
     }
 
-    /// Returns the common patterns, including those learned on the way.
-    #[must_use]
-    pub const fn patterns(&self) -> &CommonPatterns {
-        &self.patterns
-    }
-
     /// Returns the present map.
     #[must_use]
     pub fn map(&self) -> &CpMap {
         self.explorer.mapper.map()
-    }
-
-    /// Returns the explorer, which decides by the map.
-    #[must_use]
-    pub const fn explorer(&self) -> &Explorer {
-        &self.explorer
-    }
-
-    /// Returns the explorer, so that it can be moved to another place.
-    pub const fn explorer_mut(&mut self) -> &mut Explorer {
-        &mut self.explorer
     }
 
     /// Takes in a walk, and returns the change on the map; `None` if the robot turned back.
@@ -208,8 +168,8 @@ impl Layer3 {
     ) -> CpmResult<ControlFlow<Done, FragmentStep>, B> {
         // "At the junction layer 3 activates …": it decides, and takes the robot over for a turn.
         let leg = match self.explorer.decide(aim, rng) {
-            JunctionDecision::Done(done) => return Ok(ControlFlow::Break(done)),
-            JunctionDecision::Go(leg) => leg,
+            ControlFlow::Break(done) => return Ok(ControlFlow::Break(done)),
+            ControlFlow::Continue(leg) => leg,
         };
         // "… then it lets the lower layers regain the control of the robot."
         let from = walker.pose();

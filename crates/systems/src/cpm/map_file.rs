@@ -73,8 +73,8 @@ impl MapFile {
     pub fn to_json(&self) -> Result<String, MapFileError> {
         let body = Body {
             mode: self.mode,
-            units: self.patterns.unit_count(),
-            clusters: self.patterns.cluster_count(),
+            units: self.patterns.unit_count,
+            clusters: self.patterns.cluster_count,
             map: cpm::MapFile::of(&self.map, self.patterns.dictionary())?,
         };
         Ok(self.files().write(&self.origin, &body)?)

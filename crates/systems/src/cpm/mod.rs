@@ -35,20 +35,16 @@
 //! use tolman_robot::epuck_serial::SerialEpuck;
 //! use tolman_robot::{Goal, Landmark, Landmarked, Standing, System, Task};
 //! use tolman_systems::cpm::{
-//!     CommonPatterns, Cpm, CpmConfig, EpuckMeasures, Lesson, Walker, WalkerConfig, soinn, wander,
+//!     CommonPatterns, Cpm, CpmConfig, Lesson, Walker, WalkerConfig, soinn, wander,
 //! };
 //!
 //! # fn goal_is_seen() -> bool { false }
 //! // Paired and bound to a device file, with a time-out: `stty -F /dev/rfcomm0 115200 raw -echo min 0 time 10`.
 //! let port = File::options().read(true).write(true).open("/dev/rfcomm0")?;
-//! let measures = EpuckMeasures {
-//!     // With as many points as were measured.
-//!     curve: RangeCurve::new(vec![(0.0, 3800.0), (0.25, 0.0)])?,
-//!     step_us: 33_333,
-//!     most_wheel_speed: MOST_WHEEL_SPEED,
-//! };
-//! let step_us = measures.step_us;
-//! let mut config = WalkerConfig::paper(measures, 0.25);
+//! // With as many points as were measured.
+//! let curve = RangeCurve::new(vec![(0.0, 3800.0), (0.25, 0.0)])?;
+//! let step_us = 33_333;
+//! let mut config = WalkerConfig::paper(curve, step_us, 0.25);
 //! config.pilot.turn_tolerance = TURN_STEP;
 //!
 //! // A step ends so long after the one before.
@@ -94,7 +90,7 @@ mod whereabouts;
 
 pub use common_patterns::{CommonPatterns, LearnPatternsError, Lesson, soinn, wander};
 pub use config::{CpmConfig, Onward};
-pub use decision::{Aim, Done, JunctionDecision, Leg};
+pub use decision::{Aim, Done, Leg};
 pub use episode::{Begun, EpisodeSummary};
 pub use explorer::Explorer;
 pub use failure::{CpmFailure, CpmResult};
@@ -109,5 +105,5 @@ pub use system::{Cpm, CpmObserveError, doubt, view};
 pub use walker::{
     BeforePlace, Observation, Prospect, RestingWalker, Walk, WalkError, WalkResult, Walker,
 };
-pub use walker_config::{EpuckMeasures, HeadingBy, WalkerConfig};
+pub use walker_config::{HeadingBy, WalkerConfig};
 pub use whereabouts::{Approach, Whereabouts};

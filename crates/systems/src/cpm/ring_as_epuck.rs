@@ -4,14 +4,14 @@ use thiserror::Error;
 use tolman_control::epuck::RangeCurve;
 use tolman_geom::Twist;
 use tolman_robot::epuck::{
-    BODY_RADIUS, EpuckSensing, MOST_WHEEL_SPEED, PROXIMITY_SENSORS, TRACK, WHEEL_RADIUS,
-    WheelSpeeds, WheelTurns, proximity_mounts,
+    BODY_RADIUS, EpuckSensing, PROXIMITY_SENSORS, TRACK, WHEEL_RADIUS, WheelSpeeds, WheelTurns,
+    proximity_mounts,
 };
 use tolman_robot::{
     Clock, Landmark, Odometry, Ranges, Ring, Robot, Rolls, Scan, SensesLandmarks, TurnTranslate,
 };
 
-use super::walker_config::{EpuckMeasures, WalkerConfig};
+use super::walker_config::WalkerConfig;
 
 /// Makes a robot with a ring of range beams look like an e-puck to CPM, at another scale.
 ///
@@ -83,12 +83,7 @@ impl RingMeasures {
     /// the time step allows and to the clearance that the body needs.
     #[must_use]
     pub fn walker_config(&self) -> WalkerConfig {
-        let epuck = EpuckMeasures {
-            curve: RangeCurve::cpm(),
-            step_us: self.step_us,
-            most_wheel_speed: MOST_WHEEL_SPEED,
-        };
-        let mut config = WalkerConfig::paper(epuck, EPUCK_WIDTH);
+        let mut config = WalkerConfig::paper(RangeCurve::cpm(), self.step_us, EPUCK_WIDTH);
         let fastest = TURN_A_STEP / self.step_s();
         let (forward, keep_off) = (&mut config.pilot.forward, &mut config.pilot.keep_off);
         forward.turn = forward.turn.min(fastest);
@@ -256,6 +251,8 @@ where
 
 #[cfg(test)]
 mod tests {
+    use tolman_robot::epuck::MOST_WHEEL_SPEED;
+
     use super::*;
 
     fn measures() -> RingMeasures {

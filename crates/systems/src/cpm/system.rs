@@ -129,20 +129,6 @@ impl Cpm {
         })
     }
 
-    /// Returns a robot at an unknown place of a map in these `patterns`. It localizes first.
-    ///
-    /// # Errors
-    /// [`CpmError`] if the map has no place.
-    pub fn with_map(
-        walker: WalkerConfig,
-        patterns: CommonPatterns,
-        config: CpmConfig,
-        map: CpMap,
-        seed: u64,
-    ) -> Result<Self, CpmError> {
-        Self::with_maps(walker, patterns, config, vec![map], seed)
-    }
-
     /// Returns a robot at an unknown place of one of several maps in these `patterns`. It first
     /// finds the map and the place.
     ///
@@ -179,13 +165,14 @@ impl Cpm {
     /// Returns the system's explorer with the map; `None` before the first action.
     #[must_use]
     pub fn explorer(&self) -> Option<&Explorer> {
-        self.layer.as_ref().map(Layer3::explorer)
+        self.layer.as_ref().map(|layer| &layer.explorer)
     }
 
     /// Returns the common patterns, including those learned on the way.
     #[must_use]
     pub fn patterns(&self) -> &CommonPatterns {
-        self.layer.as_ref().map_or(&self.patterns, Layer3::patterns)
+        let layer = self.layer.as_ref();
+        layer.map_or(&self.patterns, |layer| &layer.patterns)
     }
 
     /// Lets the robot look round and begins the map there.
@@ -193,7 +180,7 @@ impl Cpm {
         let mut walker = Walker::new(robot, self.walker.clone());
         let patterns = self.patterns.clone();
         let layer = Layer3::begin(&mut walker, patterns, self.novelty, self.config)?;
-        self.trail.begin(layer.explorer().mapper.at());
+        self.trail.begin(layer.explorer.mapper.at());
         (self.doubtful, self.checked) = (0, 0);
         self.layer = Some(layer);
         self.standing = Stance::AtPlace(Box::new(walker.rest()));
@@ -221,7 +208,7 @@ impl Cpm {
                 }
                 (
                     Walker::new(robot, self.walker.clone()),
-                    Relocalization::new(&maps, layer.patterns(), Approach::ToAndFro, MOST_PLACES)?,
+                    Relocalization::new(&maps, &layer.patterns, Approach::ToAndFro, MOST_PLACES)?,
                 )
             }
         };
@@ -235,7 +222,7 @@ impl Cpm {
                 let map = other.unwrap_or(layer.map());
                 let is_like = map.degree(here.ahead.junction) as usize == ways;
                 match other {
-                    None => layer.explorer_mut().mapper.place(here.ahead)?,
+                    None => layer.explorer.mapper.place(here.ahead)?,
                     Some(map) => {
                         let (patterns, map) = (self.patterns.clone(), map.clone());
                         *layer = Layer3::resume_at(patterns, self.config, map, here.ahead)?;
@@ -279,14 +266,14 @@ impl Cpm {
             ControlFlow::Break(done) => done,
             ControlFlow::Continue(step) => {
                 if let Some(arrival) = step.arrival {
-                    let at = layer.explorer().mapper.at();
+                    let at = layer.explorer.mapper.at();
                     self.trail.walked(step.leg.turn, at, arrival);
                 }
                 return Ok(self.heed());
             }
         };
         layer.optimize()?;
-        let walked = layer.explorer().mapper.traversals();
+        let walked = layer.explorer.mapper.traversals();
         let is_found = done == Done::Reached && !matches!(aim, Aim::Explore | Aim::Check);
         if let Some(doubt) = self.map_doubt().filter(|_| !is_found) {
             return Ok(self.begin_anew(doubt));
@@ -372,7 +359,7 @@ impl Cpm {
     /// Drops the map and begins another at the robot's place, with the patterns learned so far.
     fn begin_elsewhere(&mut self) -> Standing {
         if let Some(layer) = self.layer.take() {
-            self.patterns = layer.patterns().clone();
+            self.patterns = layer.patterns;
         }
         self.standing = Stance::Anywhere;
         Standing::UnderWay
@@ -397,7 +384,7 @@ impl Cpm {
         }
         let sighting = Layer3::drive(&mut walker, leg)?;
         if layer.expected(leg) == Some(sighting) {
-            layer.explorer_mut().mapper.place(leg.arrive)?;
+            layer.explorer.mapper.place(leg.arrive)?;
             self.standing = Stance::AtPlace(Box::new(walker.rest()));
         } else if sighting.landmark.map(Goal::Landmark) == Some(goal) {
             // It is not where it thought, but where it was sent.
@@ -445,11 +432,15 @@ impl Mapper for Cpm {
                 let explorer = Explorer::new(self.config, *start)?;
                 let patterns = self.patterns.clone();
                 self.trail.begin(explorer.mapper.at());
-                self.layer = Some(Layer3::new(patterns, self.novelty, explorer));
+                self.layer = Some(Layer3 {
+                    patterns,
+                    novelty: self.novelty,
+                    explorer,
+                });
             }
             (CpmObservation::Walked(walked), Some(layer)) => {
                 if let Some(arrival) = layer.take_in(walked)? {
-                    let at = layer.explorer().mapper.at();
+                    let at = layer.explorer.mapper.at();
                     self.trail.walked(walked.turn, at, arrival);
                 }
             }
@@ -520,8 +511,7 @@ pub fn view(map: &CpMap) -> MapView {
     };
     let links = map.fragments().flat_map(|(_, fragment)| {
         let [minus, plus] = Sign::BOTH.map(|sign| fragment.port(sign).junction.0);
-        let link = |from, to| MapLink { from, to };
-        [link(minus, plus), link(plus, minus)]
+        MapLink::both_ways(minus, plus)
     });
     MapView {
         places: map.junctions().map(place).collect(),

@@ -2,17 +2,6 @@ use tolman_control::epuck::{
     MeetPointConfig, PilotConfig, RangeCurve, SegmentConfig, SensorAlignment,
 };
 
-/// Measures of an e-puck that are needed to drive it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct EpuckMeasures {
-    /// Conversion of the proximity sensors' raw values to distances.
-    pub curve: RangeCurve,
-    /// Length of the e-puck's time step, µs.
-    pub step_us: u64,
-    /// Maximum speed of a wheel, rad/s.
-    pub most_wheel_speed: f64,
-}
-
 /// Parameters by which a walker observes.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -48,19 +37,13 @@ pub enum HeadingBy {
 }
 
 impl WalkerConfig {
-    /// Returns the configuration of the paper's robot in corridors `width` wide, m. A sample of a
+    /// Returns the configuration of the paper's robot in corridors `width` wide, m. `curve` converts
+    /// its proximity sensors' raw values, and its time step is `step_us` long. A sample of a
     /// sweep takes one time step, so the time step sets the speed of a sweep.
     #[must_use]
-    pub fn paper(epuck: EpuckMeasures, width: f64) -> Self {
-        let EpuckMeasures {
-            curve,
-            step_us,
-            most_wheel_speed,
-        } = epuck;
-        let mut pilot = PilotConfig::paper(curve, step_us, width);
-        pilot.most_wheel_speed = most_wheel_speed;
+    pub fn paper(curve: RangeCurve, step_us: u64, width: f64) -> Self {
         Self {
-            pilot,
+            pilot: PilotConfig::paper(curve, step_us, width),
             alignment: SensorAlignment::Mounts,
             segments: SegmentConfig::cut(),
             features: SegmentConfig::joined(),

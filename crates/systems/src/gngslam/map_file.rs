@@ -14,9 +14,10 @@ const FILES: MapFiles = MapFiles {
 };
 
 /// Contents of a learned map's file: JSON, read back bit for bit, without the robot's pose.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct MapFile {
     /// Maze, robot and seed of its origin.
+    #[serde(skip)]
     pub origin: Origin,
     /// Configuration with which the map was learned.
     pub config: OnlineSlamConfig,
@@ -26,6 +27,7 @@ pub struct MapFile {
     pub sightings: Vec<LandmarkSighting>,
     /// True position of the robot when each place was made, m, for pictures and for checks of the
     /// map alone; empty if unknown.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub sites: Vec<Point>,
 }
 
@@ -59,28 +61,13 @@ pub enum MapFileError {
     },
 }
 
-#[derive(Serialize, Deserialize)]
-struct Body {
-    config: OnlineSlamConfig,
-    graph: PlaceGraph,
-    sightings: Vec<LandmarkSighting>,
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    sites: Vec<Point>,
-}
-
 impl MapFile {
     /// Returns the text of the file, with a line end.
     ///
     /// # Errors
     /// [`MapFileError::File`] if it cannot be written.
     pub fn to_json(&self) -> Result<String, MapFileError> {
-        let body = Body {
-            config: self.config,
-            graph: self.graph.clone(),
-            sightings: self.sightings.clone(),
-            sites: self.sites.clone(),
-        };
-        Ok(FILES.write(&self.origin, &body)?)
+        Ok(FILES.write(&self.origin, self)?)
     }
 
     /// Reads the text of a file.
@@ -88,24 +75,18 @@ impl MapFile {
     /// # Errors
     /// [`MapFileError`] with the place and the repair.
     pub fn from_json(text: &str) -> Result<Self, MapFileError> {
-        let (origin, body): (_, Body) = FILES.read(text)?;
-        let places = body.graph.places().len();
+        let (origin, file): (_, Self) = FILES.read(text)?;
+        let places = file.graph.places().len();
         let lost = |sighting: &&LandmarkSighting| sighting.place as usize >= places;
-        if let Some(LandmarkSighting { place, .. }) = body.sightings.iter().find(lost) {
+        if let Some(LandmarkSighting { place, .. }) = file.sightings.iter().find(lost) {
             let place = *place;
             return Err(MapFileError::Sighting { place, places });
         }
-        let found = body.sites.len();
+        let found = file.sites.len();
         if found != 0 && found != places {
             return Err(MapFileError::Sites { found, places });
         }
-        Ok(Self {
-            origin,
-            config: body.config,
-            graph: body.graph,
-            sightings: body.sightings,
-            sites: body.sites,
-        })
+        Ok(Self { origin, ..file })
     }
 }
 

@@ -2,7 +2,7 @@ use alloc::collections::BTreeMap;
 
 use thiserror::Error;
 use tolman_control::{CorridorDetector, RingError, View};
-use tolman_geom::{Heading, Point, Pose, Vector};
+use tolman_geom::{Heading, Point, Pose, Vector, path_length};
 use tolman_maps::pose_graph::PoseEdgeKind;
 use tolman_maps::scan_matching::{ScanMatching, ScanMatchingError, ScanStep};
 use tolman_robot::{Guess, MapLink, MapPlace, MapView, Mapper, VisitNaming};
@@ -283,10 +283,8 @@ impl PlacesMapper {
     }
 
     fn way_of_open(&self) -> f64 {
-        let poses = self.matching.graph().poses();
-        let pairs = self.open.windows(2);
-        let steps = pairs.map(|pair| poses[pair[1]].position - poses[pair[0]].position);
-        steps.map(|step| step.norm()).sum()
+        let poses = self.open.iter().map(|keyframe| self.pose(*keyframe));
+        path_length(&poses.collect::<Vec<Pose>>())
     }
 
     /// Returns the heading of the building's first axis; east before scans show it.
@@ -363,11 +361,7 @@ impl PlacesMapper {
     }
 
     fn way_between(&self, from: usize, to: usize) -> f64 {
-        let poses = &self.matching.graph().poses()[from..=to];
-        let steps = poses.windows(2);
-        steps
-            .map(|pair| (pair[1].position - pair[0].position).norm())
-            .sum()
+        path_length(&self.matching.graph().poses()[from..=to])
     }
 }
 
@@ -398,10 +392,7 @@ impl Mapper for PlacesMapper {
         };
         let steps = sites.windows(2).filter(|pair| pair[0].id != pair[1].id);
         let mut links: Vec<MapLink> = steps
-            .flat_map(|pair| {
-                let (from, to) = (pair[0].id, pair[1].id);
-                [MapLink { from, to }, MapLink { from: to, to: from }]
-            })
+            .flat_map(|pair| MapLink::both_ways(pair[0].id, pair[1].id))
             .collect();
         links.sort_unstable();
         links.dedup();

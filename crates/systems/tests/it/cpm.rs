@@ -17,8 +17,8 @@ use tolman_robot::{
     Goal, Landmark, MapView, Mapper, Position, Robot, SensesLandmarks, Standing, System, Task,
 };
 use tolman_systems::cpm::{
-    Aim, CommonPatterns, Cpm, CpmConfig, CpmObservation, CpmObserveError, EpuckMeasures, Layer3,
-    Lesson, Walker, WalkerConfig, soinn, wander,
+    Aim, CommonPatterns, Cpm, CpmConfig, CpmObservation, CpmObserveError, Layer3, Lesson, Walker,
+    WalkerConfig, soinn, wander,
 };
 
 /// From wall to wall, m.
@@ -42,12 +42,7 @@ struct ScriptedEpuck {
 }
 
 fn config() -> WalkerConfig {
-    let measures = EpuckMeasures {
-        curve: RangeCurve::cpm(),
-        step_us: STEP_US,
-        most_wheel_speed: MOST_WHEEL_SPEED,
-    };
-    WalkerConfig::paper(measures, WIDTH)
+    WalkerConfig::paper(RangeCurve::cpm(), STEP_US, WIDTH)
 }
 
 fn centre(cell: Cell) -> Point {

@@ -10,11 +10,12 @@ use serde_json::json;
 use tolman_arena::cpm::epuck;
 use tolman_arena::foreign::{Budget, ForeignBrain, Hello, Launch, Log};
 use tolman_arena::{Depicted, Outing, RobotFacts, Sent};
+use tolman_geom::path_length;
 use tolman_sim::robots::Epuck;
 
 use super::ground::Ground;
 use super::looks::Looks;
-use super::send::{ARRIVE, Pursued, metres, send};
+use super::send::{ARRIVE, Pursued, send};
 use super::sent_out::setup_of;
 use super::unfinished::{Call, Keeper, Saving};
 use super::{App, Failure, OrBadInput, Result, Unboxed, interrupt, keep};
@@ -191,7 +192,7 @@ impl Arguments {
             told,
             has_arrived,
         } = pursued;
-        let driven = metres(outing.path());
+        let driven = path_length(outing.path());
         let shortest = outing
             .course()
             .shortest_metres_from(outing.path()[0].position);

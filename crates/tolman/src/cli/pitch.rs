@@ -10,10 +10,7 @@ use rand_chacha::ChaCha8Rng;
 use serde_json::json;
 use tolman_arena::gngslam::{DataSet, Pitch, PlaceScorer, gather};
 use tolman_draw::{Figure, FloorPlan, GraphNode, GraphPicture, NodeMark, Series};
-use tolman_maps::place_map::{
-    ColourSpace, FeatureChoice, FeatureTable, ImageFeature, ImageForm, PlaceMap, PlaceMapConfig,
-    PlaceRecord,
-};
+use tolman_maps::place_map::ImageForm;
 
 use super::share::share;
 use super::{Failure, OrBadInput, Result, Unboxed, file};
@@ -119,18 +116,19 @@ impl Verb {
 }
 
 fn world(arguments: &World, out: &mut dyn Write) -> Result {
-    let pitch = Pitch::named(&arguments.name).or_bad_input()?;
+    let pitch = Pitch::named(&arguments.name).unboxed().or_bad_input()?;
     let text = pitch.course.world.to_json()? + "\n";
     file::write_or_show(arguments.out.as_deref(), &text, out)
 }
 
 fn gathered(arguments: &Gather, out: &mut dyn Write) -> Result {
     let seed = arguments.seed;
-    let pitch = Pitch::named(&arguments.name).or_bad_input()?;
-    let robot = pitch.robot(seed, arguments.calibration).or_bad_input()?;
+    let pitch = Pitch::named(&arguments.name).unboxed().or_bad_input()?;
+    let robot = pitch.robot(seed, arguments.calibration).unboxed();
+    let robot = robot.or_bad_input()?;
     let data = gather(&pitch, robot, seed, arguments.records).unboxed();
     let data = data.or_bad_input()?;
-    file::write(&arguments.out, data.to_text()?)?;
+    file::write(&arguments.out, data.to_text().unboxed()?)?;
     tell(&data, out)
 }
 
@@ -141,6 +139,7 @@ fn gathered(arguments: &Gather, out: &mut dyn Write) -> Result {
 fn read(path: &Path) -> Result<DataSet> {
     let text = file::read(path, "give a file that `tolman pitch gather` wrote")?;
     DataSet::from_text(&text)
+        .unboxed()
         .with_context(|| path.display().to_string())
         .or_bad_input()
 }
@@ -202,7 +201,7 @@ const WIDTH: f64 = 640.0;
 
 /// Returns the arena with the places of the records. Filled ones show the goals best.
 fn picture(data: &DataSet) -> Result<String> {
-    let pitch = Pitch::named(&data.arena).or_bad_input()?;
+    let pitch = Pitch::named(&data.arena).unboxed().or_bad_input()?;
     let mut plan = FloorPlan::of_world(&pitch.course.world, WIDTH);
     let mut graph = GraphPicture::new().radius(2.0);
     for (index, record) in data.records.iter().enumerate() {
@@ -222,18 +221,11 @@ fn picture(data: &DataSet) -> Result<String> {
 
 fn score(arguments: &Score, out: &mut dyn Write) -> Result {
     let data = read(&arguments.file)?;
-    let pitch = Pitch::named(&data.arena).or_bad_input()?;
-    let records = data.records.iter().map(|record| record.record.clone());
-    let records: Vec<PlaceRecord> = records.collect();
-    let choice = FeatureChoice::paper(ImageFeature::small(ColourSpace::Hsv));
+    let pitch = Pitch::named(&data.arena).unboxed().or_bad_input()?;
     let form = ImageForm::Span { left_out: 0.0 };
-    let table = FeatureTable::of(&records, &choice, form).or_bad_input()?;
-    let mut config = PlaceMapConfig::paper();
-    if let Some(period) = arguments.growth_period {
-        config.gng.growth_period = period;
-    }
     let mut rng = ChaCha8Rng::seed_from_u64(arguments.seed);
-    let map = PlaceMap::learn(&table, 0..records.len(), config, &mut rng).or_bad_input()?;
+    let learned = data.learn(form, arguments.growth_period, &mut rng);
+    let (table, map) = learned.or_bad_input()?;
     let scored = PlaceScorer::paper(&data, &pitch).score(&map, &table, &mut rng)?;
     let nodes = map.network().ids().count();
     if arguments.json {

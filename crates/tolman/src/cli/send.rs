@@ -5,7 +5,7 @@ use core::sync::atomic::Ordering;
 use anyhow::{Context, anyhow};
 use tolman_arena::run::{self, Ended, TaskEnd};
 use tolman_arena::{BoxError, Outing};
-use tolman_geom::{Point, Pose};
+use tolman_geom::Point;
 use tolman_robot::{Goal, Landmark, Standing, Task};
 
 use super::bar::Doing;
@@ -177,12 +177,4 @@ pub(super) fn check_origin(map: &MapText, outing: &dyn Outing) -> Result {
         return Ok(());
     };
     Err(Failure::BadInput(error))
-}
-
-/// Returns the length of a path, m.
-pub(super) fn metres(path: &[Pose]) -> f64 {
-    let pairs = path.windows(2);
-    pairs
-        .map(|pair| (pair[1].position - pair[0].position).norm())
-        .sum()
 }

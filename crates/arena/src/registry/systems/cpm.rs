@@ -282,8 +282,8 @@ impl LearnedMap for MapFile {
             format!(
                 "a dictionary of {} patterns, of {} units in {} clusters",
                 patterns.dictionary().len(),
-                patterns.unit_count(),
-                patterns.cluster_count()
+                patterns.unit_count,
+                patterns.cluster_count
             ),
             format!(
                 "{} fragments, {} junctions, {} unexplored ports",
@@ -307,8 +307,8 @@ impl LearnedMap for MapFile {
             "maze": origin.world,
             "seed": origin.seed,
             "mode": mode,
-            "units": patterns.unit_count(),
-            "clusters": patterns.cluster_count(),
+            "units": patterns.unit_count,
+            "clusters": patterns.cluster_count,
             "fragments": map.fragments().len(),
             "junctions": map.junctions().len(),
             "unexplored_ports": map.open_ports().count(),

@@ -78,44 +78,27 @@ impl SystemEntry for GngSlamBetterEntry {
         };
         preset.explore = explore;
         let config: OnlineSlamConfig = setup.settings.over(&preset)?;
-        send(setup, |start| {
-            let (system, sites, world_from_map) = match before {
-                None => (OnlineSlam::new(config, setup.seed), Vec::new(), start),
-                Some(before) => {
-                    let laid = LaidOver::of(&before.graph, &before.sites);
-                    let system = OnlineSlam::on(before.graph, config, setup.seed);
-                    let system = system.with_sightings(before.sightings);
-                    let world_from_map = laid.map_or(Pose::IDENTITY, |laid| laid.world_from_map);
-                    (system, before.sites, world_from_map)
-                }
-            };
-            Mission {
-                system,
-                sites,
-                world_from_map,
+        let mission = match before {
+            None => Mission {
+                system: OnlineSlam::new(config, setup.seed),
+                sites: Vec::new(),
+                world_from_map: None,
                 config,
                 steps: LEARNING_STEPS,
-            }
-        })
+            },
+            Some(before) => Mission::on(before, config, setup.seed, LEARNING_STEPS),
+        };
+        mission.begin(setup)
     }
 
     fn driver(&self, maps: &[MapText], setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
         let [map] = maps else {
             return Err("gng-slam-better drives by one map: give --map once".into());
         };
-        let file = map.parsed(MapFile::from_json)?;
+        let mut file = map.parsed(MapFile::from_json)?;
         let config: OnlineSlamConfig = setup.settings.over(&file.config)?;
-        send(setup, |_| {
-            let laid = LaidOver::of(&file.graph, &file.sites);
-            let system = OnlineSlam::on(file.graph.put_down(false), config, setup.seed);
-            Mission {
-                system: system.with_sightings(file.sightings),
-                sites: file.sites,
-                world_from_map: laid.map_or(Pose::IDENTITY, |laid| laid.world_from_map),
-                config,
-                steps: DRIVING_STEPS,
-            }
-        })
+        file.graph = file.graph.put_down(false);
+        Mission::on(file, config, setup.seed, DRIVING_STEPS).begin(setup)
     }
 
     fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, BoxError> {
@@ -146,41 +129,51 @@ struct Mission {
     system: OnlineSlam,
     /// True position of the robot when each place that it already knows was made, m.
     sites: Vec<Point>,
-    /// True pose of the origin of the system's map in the world.
-    world_from_map: Pose,
+    /// True pose of the origin of the system's map in the world; `None` for where the robot begins.
+    world_from_map: Option<Pose>,
     config: OnlineSlamConfig,
     /// Default maximum number of time steps.
     steps: u32,
 }
 
-/// Puts the robot down and returns it ready for its `mission`.
-fn send(
-    setup: &Setup<'_>,
-    mission: impl FnOnce(Pose) -> Mission,
-) -> Result<Box<dyn Outing>, BoxError> {
-    let kind = setup.robot.kind();
-    let course = setup.course(&body_of(kind), WIDE)?;
-    let start = setup.start_anywhere(&course, &body_of(kind))?;
-    let mission = mission(start);
-    match kind {
-        RobotKind::Laser | RobotKind::Camera => {
-            let mut config = setup.robot.laser_config();
-            config.ring = Ring::full(RING.0, RING.1);
-            let robot = setup.laser_at(&course, start, config)?;
-            mission.send(setup, course, robot)
-        }
-        _ => {
-            let robot = setup.pioneer_2dx_at(&course, start)?;
-            mission.send(setup, course, robot)
+impl Mission {
+    /// Returns a mission on a map.
+    fn on(file: MapFile, config: OnlineSlamConfig, seed: u64, steps: u32) -> Self {
+        let laid = LaidOver::of(&file.graph, &file.sites);
+        let system = OnlineSlam::on(file.graph, config, seed);
+        Self {
+            system: system.with_sightings(file.sightings),
+            sites: file.sites,
+            world_from_map: Some(laid.map_or(Pose::IDENTITY, |laid| laid.world_from_map)),
+            config,
+            steps,
         }
     }
-}
 
-impl Mission {
+    /// Puts the robot down and returns it ready.
+    fn begin(self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
+        let kind = setup.robot.kind();
+        let course = setup.course(&body_of(kind), WIDE)?;
+        let start = setup.start_anywhere(&course, &body_of(kind))?;
+        match kind {
+            RobotKind::Laser | RobotKind::Camera => {
+                let mut config = setup.robot.laser_config();
+                config.ring = Ring::full(RING.0, RING.1);
+                let robot = setup.laser_at(&course, start, config)?;
+                self.send(setup, course, start, robot)
+            }
+            _ => {
+                let robot = setup.pioneer_2dx_at(&course, start)?;
+                self.send(setup, course, start, robot)
+            }
+        }
+    }
+
     fn send<M>(
         self,
         setup: &Setup<'_>,
         course: Course,
+        start: Pose,
         robot: Simulated<M>,
     ) -> Result<Box<dyn Outing>, BoxError>
     where
@@ -198,7 +191,7 @@ impl Mission {
             steps,
         } = self;
         let sent = Sent::new(course, robot, setup.steps.unwrap_or(steps), system)
-            .laid_at(world_from_map)
+            .laid_at(world_from_map.unwrap_or(start))
             .counting(|system| system.graph().places().len())
             .keeping(move |system, made| {
                 let file = MapFile {

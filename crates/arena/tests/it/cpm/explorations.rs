@@ -1,5 +1,7 @@
 //! Random mazes, explored to their end.
 
+use core::ops::ControlFlow;
+
 use alloc::collections::BTreeSet;
 
 use proptest::prelude::*;
@@ -9,7 +11,7 @@ use tolman_maps::cpm::{
     Candidates, Dictionary, JunctionId, MapUpdate, Mapping, PatternId, theorem_1,
 };
 use tolman_robot::Landmark;
-use tolman_systems::cpm::{Aim, CpmConfig, Done, Explorer, JunctionDecision, Leg, Onward};
+use tolman_systems::cpm::{Aim, CpmConfig, Done, Explorer, Leg, Onward};
 
 use super::world::{
     Likeness, MapCheck, MazeConfig, PlaneMaze, PlaneWalker, Reckoning, WalkOutcome, WalkerNoise,
@@ -225,7 +227,7 @@ fn patterns_are_learned_while_mapping() {
         let mut rover = PlaneWalker::new(&world, WalkerNoise::NONE, Reckoning::None);
         let mut explorer = Explorer::new(CpmConfig::online(), rover.sighting()).unwrap();
         let mut versions = Vec::new();
-        while let JunctionDecision::Go(leg) = explorer.decide(Aim::Explore, &mut rng) {
+        while let ControlFlow::Continue(leg) = explorer.decide(Aim::Explore, &mut rng) {
             let WalkOutcome::Arrived(mut walk) = rover.go(leg.turn, None, &mut rng).unwrap() else {
                 unreachable!("it was not told to give up");
             };

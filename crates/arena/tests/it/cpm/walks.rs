@@ -1,5 +1,7 @@
 //! The worked examples of the figures.
 
+use core::ops::ControlFlow;
+
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_geom::Point;
@@ -7,7 +9,7 @@ use tolman_maps::cpm::{
     Dictionary, End, FragmentId, MapUpdate, Mapping, PatternId, Sighting, Sign, Traversal, Turn,
 };
 use tolman_robot::Landmark;
-use tolman_systems::cpm::{Aim, CpmConfig, Done, Explorer, JunctionDecision, Onward};
+use tolman_systems::cpm::{Aim, CpmConfig, Done, Explorer, Onward};
 
 use super::explorations::pursue;
 use super::world::{
@@ -251,7 +253,7 @@ fn figure_10() {
     // "We let the robot move forward": X2 is all that is unknown here; A3 "is not available as a
     // choice".
     let mut rng = ChaCha8Rng::seed_from_u64(1);
-    let JunctionDecision::Go(leg) = explorer.decide(Aim::Find(Landmark::Goal), &mut rng) else {
+    let ControlFlow::Continue(leg) = explorer.decide(Aim::Find(Landmark::Goal), &mut rng) else {
         panic!("there is more to explore");
     };
     assert_eq!((leg.turn, leg.known), (turn_into(&world, &rover, X2), None));
@@ -259,7 +261,7 @@ fn figure_10() {
     let (mut lucky, mut lucky_rover) = (explorer.clone(), rover.clone());
     follow(&mut lucky, &mut lucky_rover, &world, &[X2]);
     let done = lucky.decide(Aim::Find(Landmark::Goal), &mut rng);
-    assert_eq!(done, JunctionDecision::Done(Done::Reached));
+    assert_eq!(done, ControlFlow::Break(Done::Reached));
     assert!(lucky.mapper.map().has_goal() && !lucky.mapper.map().is_complete());
     // (d) If X3 is: A5, which finds X4 and X5.
     assert_eq!(

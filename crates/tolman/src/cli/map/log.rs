@@ -8,13 +8,13 @@ use anyhow::anyhow;
 use tolman_arena::registry::SystemEntry;
 use tolman_draw::{Figure, Page, PageTable};
 use tolman_formats::{dot, graphml, input, node_link_json, route_geojson, tum};
+use tolman_geom::path_length;
 use tolman_papers::real::{LogMapper, MapPicture, MappedLog, RobotLog, ros_map};
 use tolman_robot::MapLink;
 
 use crate::cli::bar::bar;
 use crate::cli::kind::Kind;
 use crate::cli::replay_file::{self, Overwrite};
-use crate::cli::send::metres;
 use crate::cli::{App, Failure, OrBadInput, Result, Unboxed, called, file};
 
 pub(super) const EXAMPLES: &str = "\
@@ -216,7 +216,7 @@ impl Mapped<'_> {
             None => "Nothing that the laser read speaks against the map.".to_owned(),
             Some(doubt) => format!("The map is doubtful: {doubt}."),
         };
-        let way = metres(&found.poses);
+        let way = path_length(&found.poses);
         let mut page = Page::new(format!("The map of {}", self.name()))
             .fact("scans", log.scans.len().to_string())
             .fact("way", format!("{way:.0} m"))

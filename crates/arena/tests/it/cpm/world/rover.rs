@@ -1,3 +1,5 @@
+use core::ops::ControlFlow;
+
 use alloc::vec::Vec;
 
 use rand::{Rng, RngExt};
@@ -8,7 +10,7 @@ use tolman_maps::cpm::{
     Bearings, CpmError, DeadReckoning, MapUpdate, NoSuchTurn, PatternId, Sighting, Sign, Traversal,
     Turn,
 };
-use tolman_systems::cpm::{Aim, Done, Explorer, JunctionDecision, Leg};
+use tolman_systems::cpm::{Aim, Done, Explorer, Leg};
 
 /// Errors of a walker's senses.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -169,8 +171,8 @@ impl<'a> PlaneWalker<'a> {
     ) -> Result<Done, CpmError> {
         loop {
             let leg = match explorer.decide(aim, rng) {
-                JunctionDecision::Done(done) => return Ok(done),
-                JunctionDecision::Go(leg) => leg,
+                ControlFlow::Break(done) => return Ok(done),
+                ControlFlow::Continue(leg) => leg,
             };
             match self.go(leg.turn, leg.give_up_after, rng)? {
                 WalkOutcome::Arrived(walk) => {
