@@ -9,13 +9,13 @@
 
 extern crate alloc;
 
-mod abstract_world;
 mod fuzz;
 mod golden;
 mod judges;
 mod maze_page;
 mod mazes;
 mod mslst;
+mod office_moves;
 mod one_maze;
 mod physics;
 mod replay;

@@ -53,8 +53,8 @@ impl DataSet {
     }
 
     /// Learns a map of the paper's most accurate features from all records, and returns it with
-    /// those features. It has a node more for each `growth_period` records; `None` for the middle of
-    /// the paper's range.
+    /// those features. It has a node more for each `growth_period` records; `None` for the middle
+    /// of the paper's range.
     ///
     /// # Errors
     /// If a record lacks a feature, or there are fewer than two records.

@@ -29,8 +29,8 @@ pub struct Pitch {
     pub backdrop: Backdrop,
 }
 
-/// What there is of each of an arena's two goals. In random arenas the goals have other colours, and
-/// the first is called blue.
+/// What there is of each of an arena's two goals. In random arenas the goals have other colours,
+/// and the first is called blue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Goals<T> {

@@ -37,9 +37,9 @@ pub enum HeadingBy {
 }
 
 impl WalkerConfig {
-    /// Returns the configuration of the paper's robot in corridors `width` wide, m. `curve` converts
-    /// its proximity sensors' raw values, and its time step is `step_us` long. A sample of a
-    /// sweep takes one time step, so the time step sets the speed of a sweep.
+    /// Returns the configuration of the paper's robot in corridors `width` wide, m. `curve`
+    /// converts its proximity sensors' raw values, and its time step is `step_us` long. A sample
+    /// of a sweep takes one time step, so the time step sets the speed of a sweep.
     #[must_use]
     pub fn paper(curve: RangeCurve, step_us: u64, width: f64) -> Self {
         Self {
