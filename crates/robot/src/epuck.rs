@@ -129,7 +129,8 @@ pub struct EpuckSensing {
     pub bump: Option<bool>,
 }
 
-#[cfg(all(test, feature = "serde"))]
+#[cfg(test)]
+#[cfg(feature = "serde")]
 mod tests {
     use super::*;
 

@@ -40,7 +40,8 @@ impl AsRef<Self> for LaserSensing {
     }
 }
 
-#[cfg(all(test, feature = "serde"))]
+#[cfg(test)]
+#[cfg(feature = "serde")]
 mod tests {
     use tolman_geom::Heading;
 

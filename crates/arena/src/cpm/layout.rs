@@ -24,7 +24,7 @@ use super::fragments::{DIRECTIONS, along};
 /// let layout = Layout::of(&map, &course.maze);
 /// let goal = map.landmarks(Landmark::Goal).next().ok_or("the goal is not on the map")?;
 /// assert_eq!(layout.place(goal), Some(course.maze.goals()[0]));
-/// # Ok::<(), Box<dyn core::error::Error>>(())
+/// # Ok::<(), tolman_arena::BoxError>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Layout {

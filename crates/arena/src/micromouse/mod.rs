@@ -28,7 +28,7 @@
 //! assert_eq!(trial.verdict.run_2, Some(4));
 //! let certificate = mouse.certificate().ok_or("no proof")?;
 //! check(certificate, &maze)?;
-//! # Ok::<(), Box<dyn core::error::Error>>(())
+//! # Ok::<(), tolman_arena::BoxError>(())
 //! ```
 
 mod certificate;

@@ -59,7 +59,8 @@ const fn dead_ends(sides: u64) -> u64 {
     not_zero(open) & !not_zero(but_the_first) & !sides
 }
 
-#[cfg(all(test, feature = "alloc"))]
+#[cfg(test)]
+#[cfg(feature = "alloc")]
 mod tests {
     use alloc::vec::Vec;
 

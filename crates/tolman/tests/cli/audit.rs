@@ -83,7 +83,7 @@ fn certificates_hold_until_a_field_is_changed() {
     let text = fs::read_to_string(&path).unwrap();
     let whole: serde_json::Value = serde_json::from_str(&text).unwrap();
     let mut places = Vec::new();
-    for part in ["/refuted/0", "/refuted/9", "/supported/3"] {
+    for part in ["/refuted/0", "/supported/3"] {
         leaves(whole.pointer(part).unwrap(), part, &mut places);
     }
     places.extend(
@@ -98,7 +98,7 @@ fn certificates_hold_until_a_field_is_changed() {
         ]
         .map(|name| format!("/{name}")),
     );
-    assert!(places.len() > 60, "{places:?}");
+    assert!(places.len() > 40, "{places:?}");
     for place in places {
         let mut forged = whole.clone();
         let field = forged.pointer_mut(&place).unwrap();

@@ -198,7 +198,7 @@ fn mslst_better_goes_on_with_an_interrupted_run() {
 
 #[test]
 fn cpm_goes_on_with_an_interrupted_run() {
-    let folder = maze("interrupted-cpm", "9x9");
+    let folder = maze("interrupted-cpm", "7x7");
     let learn =
         "learn --system cpm-better --maze a.maze --start random --out map.json --svg map.svg";
     let files = ["map.json", "map.svg"];
