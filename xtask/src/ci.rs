@@ -230,15 +230,16 @@ pub(crate) fn run(choice: &Choice) -> Result<()> {
     let mut failures = 0;
     let mut beside = None;
     for (name, _, step) in steps {
-        if choice.is_whole() && BESIDE.contains(name) {
-            if beside.is_none() && failures == 0 {
+        let goes_on = failures == 0 || choice.keep_going;
+        if choice.is_whole() && BESIDE.contains(name) && (goes_on || beside.is_some()) {
+            if beside.is_none() {
                 beside = Some(Beside::start(choice)?);
             }
             continue;
         }
         eprintln!("\n== {name}");
         let begun = Instant::now();
-        let result = if failures == 0 || choice.keep_going {
+        let result = if goes_on {
             step()
         } else {
             let why = "a step before it failed (--keep-going runs it)".to_owned();
