@@ -47,7 +47,8 @@ const TABLES: &[(&str, &[&str])] = &[(
 )];
 
 /// Tables that are compared with every change, where those above take too long for it: a robot that
-/// goes home has learned before.
+/// goes home has learned before. Of those tables that have another number of runs, every change plays
+/// as many as of the others.
 const QUICK_TABLES: &[(&str, &[&str])] = &[("arena", &["home, Pioneer", "conditions"])];
 
 /// Plays the runs of these experiments, or of all if none is named, and compares them with those in
@@ -68,7 +69,7 @@ pub(crate) fn run(names: &[String], bless: bool) -> Result<()> {
     }
     succeed(&mut cargo("build --release --quiet --package tolman"))?;
     let is_asked_for = |name: &str| names.is_empty() || names.iter().any(|one| one == name);
-    run_those(is_asked_for, TABLES, bless, "release")
+    run_those(is_asked_for, TABLES, Extent::Whole { bless })
 }
 
 /// The slowest experiments, which only `cargo xtask golden` plays.
@@ -79,16 +80,28 @@ const SLOW: &[&str] = &["mslst", "mslst-sweeps", "diktiometry", "gngslam"];
 /// # Errors
 /// If an experiment fails or a value differs.
 pub(crate) fn run_quick() -> Result<()> {
-    run_those(|name| !SLOW.contains(&name), QUICK_TABLES, false, "debug")
+    run_those(|name| !SLOW.contains(&name), QUICK_TABLES, Extent::Quick)
+}
+
+/// How much is played.
+#[derive(Clone, Copy)]
+enum Extent {
+    /// With every change, by the command that the tests have built.
+    Quick,
+    /// All pinned runs, by the optimized command; with `bless` they are written.
+    Whole { bless: bool },
 }
 
 fn run_those(
     is_asked_for: impl Fn(&str) -> bool,
     tables: &[(&str, &[&str])],
-    bless: bool,
-    profile: &str,
+    extent: Extent,
 ) -> Result<()> {
     let target = workspace::target_folder()?;
+    let (profile, is_whole, bless) = match extent {
+        Extent::Quick => ("debug", false, false),
+        Extent::Whole { bless } => ("release", true, bless),
+    };
     let tolman = || Command::new(target.join(profile).join("tolman"));
     let mut moved = Vec::new();
     for (name, runs, more) in PINNED.iter().filter(|pinned| is_asked_for(pinned.0)) {
@@ -117,7 +130,7 @@ fn run_those(
         play(*runs, tables)?;
         let file = made.join("runs.jsonl");
         let mut all = fs::read_to_string(&file)?;
-        for (runs, table) in *more {
+        for (runs, table) in more.iter().filter(|_| is_whole) {
             play(*runs, &[table])?;
             // A run of one table leaves the runs of the others alone; the first ones are already
             // there.
@@ -135,10 +148,16 @@ fn run_those(
             fs::copy(made.join("runs.jsonl"), pinned.join("runs.jsonl"))?;
             continue;
         }
+        let is_played = |table: &str, run: u64| {
+            let is_of_tables = tables.is_empty() || tables.contains(&table);
+            let is_further =
+                more.iter().any(|further| further.1 == table) && run >= u64::from(*runs);
+            is_of_tables && (is_whole || !is_further)
+        };
         let mut compare = tolman();
         compare
             .args(["experiment", "--compare"])
-            .arg(of_tables(&pinned, tables, &target)?)
+            .arg(part_of(&pinned, &is_played, &target)?)
             .arg(made);
         if succeed(&mut compare).is_err() {
             moved.push(*name);
@@ -152,15 +171,14 @@ fn run_those(
     Ok(())
 }
 
-/// Returns a folder with the committed runs of these tables alone, or of all if none is named.
-fn of_tables(pinned: &Path, tables: &[&str], target: &Path) -> Result<PathBuf> {
-    if tables.is_empty() {
-        return Ok(pinned.to_owned());
-    }
+/// Returns a folder with those committed runs, named by table and number, that were played.
+fn part_of(pinned: &Path, is_played: &dyn Fn(&str, u64) -> bool, target: &Path) -> Result<PathBuf> {
     let mut kept = String::new();
     for line in fs::read_to_string(pinned.join("runs.jsonl"))?.lines() {
         let run: Value = serde_json::from_str(line)?;
-        if tables.iter().any(|table| run["table"] == **table) {
+        let table = run["table"].as_str().context("a pinned run has no table")?;
+        let number = run["run"].as_u64().context("a pinned run has no number")?;
+        if is_played(table, number) {
             kept += &format!("{line}\n");
         }
     }
