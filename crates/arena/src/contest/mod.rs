@@ -8,8 +8,6 @@
 
 mod claim;
 mod condition;
-#[cfg(test)]
-mod entry_tests;
 mod evidence;
 mod ideal;
 mod judgement;

@@ -310,17 +310,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_maze_is_mapped_place_by_place() {
-        let text = include_str!("../../mazes/cpm-1.maze");
-        let maze = tolman_maze::read(text).unwrap().maze;
-        let config = EpuckSurveyConfig::usual(30);
-        let survey = survey_maze(&maze, 0.25, &config, 1).unwrap();
-        assert_eq!((survey.moves, survey.trouble), (30, None));
-        assert_eq!(survey.bounded, 30, "odometry's bounds hold");
-        assert!(survey.score.is_isomorphic, "{:?}", survey.score);
-    }
-
-    #[test]
     fn a_sweep_says_where_walls_are() {
         let mut values = vec![0.0; 100];
         values[20..30].fill(500.0);

@@ -10,8 +10,6 @@
 
 mod epuck;
 mod errors;
-#[cfg(test)]
-mod laser_tests;
 mod memory;
 mod office;
 mod office_robot;

@@ -34,8 +34,6 @@
 mod certificate;
 mod judgement;
 pub mod noisy;
-#[cfg(test)]
-mod pioneer_tests;
 mod q_learning;
 mod referee;
 mod trial;

@@ -4,7 +4,19 @@
 extern crate alloc;
 
 mod better_map;
+mod certificate;
+mod contest;
 mod cpm;
+mod entry;
+mod episodes;
 mod gngslam;
+mod laser_diktiometry;
+mod noisy_mouse;
+mod office_robot;
 mod online_slam;
+mod pioneer_mouse;
 mod place_scores;
+mod registry;
+mod stepped;
+mod survey_file;
+mod surveys;

@@ -6,7 +6,8 @@ use tolman_arena::course::Course;
 use tolman_arena::cpm::{epuck_course, learn};
 use tolman_systems::cpm::CommonPatterns;
 
-fn course(text: &str) -> Course {
+/// Returns the course of a maze file.
+pub(crate) fn course(text: &str) -> Course {
     epuck_course("", tolman_maze::read(text).unwrap()).unwrap()
 }
 

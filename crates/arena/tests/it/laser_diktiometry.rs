@@ -6,18 +6,28 @@ use tolman_sim::Solo;
 use tolman_sim::robots::LaserPioneer;
 use tolman_systems::diktiometry::{Diktiometer, DiktiometerConfig, LaserEye};
 
-use super::{Office, OfficeConfig, SurveyorConfig, mapper};
-use crate::run::{Limited, TaskEnd, run};
+use tolman_arena::diktiometry::{Office, OfficeConfig, SurveyorConfig, TruePlace, mapper};
+use tolman_arena::run::{Limited, TaskEnd, run};
 
 /// Returns MSLST's J maze: corridors 0.95 m wide, with walls that are lines.
-pub(super) fn j() -> Office {
+fn j() -> Office {
     let file = tolman_maze::read(include_str!("../../mazes/j-long.maze")).unwrap();
-    let furniture = OfficeConfig {
-        corridor_width: file.corridor_width.unwrap(),
-        wall_thickness: 0.0,
-        ..OfficeConfig::bare()
-    };
+    let mut furniture = OfficeConfig::bare();
+    furniture.corridor_width = file.corridor_width.unwrap();
+    furniture.wall_thickness = 0.0;
     Office::new(&file.maze, &furniture).unwrap()
+}
+
+#[test]
+fn what_leads_to_no_goal_is_no_part_of_it() {
+    let office = j();
+    // A J has two ends and three bends.
+    let places = office.places(&[]);
+    assert_eq!(places.len(), 5);
+    let degrees = places.values().map(TruePlace::way_count);
+    assert_eq!(degrees.sum::<usize>(), 8);
+    let apart = office.separation() - office.config().pitch();
+    assert!(apart.abs() < 1e-12, "{apart}");
 }
 
 #[test]

@@ -3,9 +3,9 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use super::{Condition, Contest, Moment};
-use crate::family::Family;
-use crate::registry::{Registry, RobotEntry, Schooling};
+use tolman_arena::contest::{Condition, Contest, Moment, SteppedContest};
+use tolman_arena::family::Family;
+use tolman_arena::registry::{Registry, RobotEntry, Schooling};
 
 const SEEDS: u64 = 5;
 
@@ -40,7 +40,7 @@ fn every_system_can_be_sent_into_every_family_or_says_in_a_sentence_why_not() {
                         abstained += 1;
                         continue;
                     }
-                    let entered = contest.enter(&schooling);
+                    let entered = SteppedContest::new(&contest, &schooling);
                     assert!(entered.is_ok(), "{what}: {:?}", entered.err());
                     sent += 1;
                 }

@@ -10,10 +10,10 @@ use tolman_sim::{CorridorSize, World};
 use tolman_systems::micromouse::Search;
 use tolman_systems::micromouse::system::{MazeMouse, MazeMouseConfig};
 
-use super::{brief, check};
-use crate::Simulated;
-use crate::pioneer::{self, CORRIDOR_WIDTH};
-use crate::run::{Limited, TaskEnd, run};
+use tolman_arena::Simulated;
+use tolman_arena::micromouse::{brief, check};
+use tolman_arena::pioneer::{self, CORRIDOR_WIDTH};
+use tolman_arena::run::{Limited, TaskEnd, run};
 
 const MAZE: &str = "\
 o---o---o---o---o
