@@ -21,7 +21,9 @@ use clap::ValueEnum;
 use Job::{Golden, Static, Tests, Thorough};
 
 use crate::workspace::{self, built, cargo, installed, succeed};
-use crate::{board, docs, fuzz, golden, layers, mazes, mutants, playground, prose, python, rerun};
+use crate::{
+    board, docs, fuzz, golden, layers, mazes, mutants, playground, prose, python, rerun, site,
+};
 
 /// Outcome of a step that did not fail.
 pub(crate) enum Outcome {
@@ -112,6 +114,7 @@ const STEPS: &[Step] = &[
     ("python", Thorough, python::check),
     ("rerun", Thorough, rerun::check),
     ("playground", Thorough, playground::check),
+    ("site", Thorough, site::check),
     ("packages", Thorough, || passed(packages::all())),
     // Every set of a crate's features by itself: the other steps turn on all of them or none.
     ("features", Thorough, || {

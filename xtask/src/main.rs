@@ -21,6 +21,7 @@ mod playground;
 mod prose;
 mod python;
 mod rerun;
+mod site;
 mod workspace;
 
 use std::ffi::OsString;
@@ -109,6 +110,14 @@ enum Verb {
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
+    /// Builds one folder of pages that open from disk: playground, replays, a report, all pages and
+    /// the API documentation. Needs the playground's tools and mdBook; if one is missing, says how
+    /// to install it
+    Site {
+        /// Folder to write; a site that is there is replaced [default: target/site]
+        #[arg(long, value_name = "DIR")]
+        out: Option<PathBuf>,
+    },
     /// Builds the API documentation, makes README's animated picture and checks the links of the
     /// written pages
     Docs,
@@ -134,6 +143,7 @@ fn main() -> ExitCode {
         Verb::Python => alone(python::check()),
         Verb::Rerun => alone(rerun::check()),
         Verb::Playground { out } => playground::run(out.as_deref()),
+        Verb::Site { out } => site::run(out.as_deref()),
         Verb::Docs => docs::run(),
     };
     match done {

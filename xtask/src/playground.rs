@@ -62,7 +62,7 @@ fn usual() -> Result<PathBuf> {
 }
 
 /// Returns the tool that is not installed, with the command that installs it.
-fn missing() -> Result<Option<String>> {
+pub(crate) fn missing() -> Result<Option<String>> {
     let installed =
         output(Command::new("rustc").args(["--print", "target-libdir", "--target", TARGET]))?;
     if !fs::exists(installed.trim())? {

@@ -9,11 +9,12 @@
 #![expect(clippy::print_stderr, reason = "it says what takes long")]
 #![cfg(unix)]
 
+use std::collections::HashMap;
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex, OnceLock};
 use std::thread;
 use std::time::Instant;
 
@@ -54,18 +55,65 @@ fn expected(line: &str) -> (String, i32) {
     (command.to_owned(), code)
 }
 
-/// Runs the lines of one page one by one and returns what went wrong.
-fn run(page: &str, lines: &[String]) -> Vec<String> {
-    let name = page.replace(['/', ' '], "-");
+/// What every reader has.
+const GIVEN: [&str; 2] = ["mazes", "logs"];
+
+/// Returns an empty folder of this name, with what every reader has.
+fn folder(name: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
         .join("commands")
         .join(name);
     let _ = fs::remove_dir_all(&folder);
     fs::create_dir_all(&folder).unwrap();
-    for given in ["mazes", "logs"] {
+    for given in GIVEN {
         let from = root().join(given).canonicalize().unwrap();
         symlink(from, folder.join(given)).unwrap();
     }
+    folder
+}
+
+/// The lines that needed nothing of the lines before them: how each ended, and where it wrote. Several
+/// pages show some of them.
+#[derive(Default)]
+struct Ran(Mutex<HashMap<String, Arc<OnceLock<(PathBuf, Output)>>>>);
+
+impl Ran {
+    /// Runs a line in `page`, or copies there what it wrote for another page.
+    fn run(&self, page: &Path, line: &str) -> Output {
+        let needs = |word: &str| {
+            page.join(word).exists() && !GIVEN.iter().any(|given| word.starts_with(given))
+        };
+        if line.split_whitespace().any(needs) {
+            return sh(page, line);
+        }
+        let (number, ran) = {
+            let mut all = self.0.lock().unwrap();
+            (
+                all.len(),
+                Arc::clone(all.entry(line.to_owned()).or_default()),
+            )
+        };
+        let (made, output) = ran.get_or_init(|| {
+            let made = folder(&format!("line-{number}"));
+            let output = sh(&made, line);
+            for given in GIVEN {
+                fs::remove_file(made.join(given)).unwrap();
+            }
+            (made, output)
+        });
+        let copied = Command::new("cp")
+            .arg("-r")
+            .arg(made.join("."))
+            .arg(page)
+            .status();
+        assert!(copied.unwrap().success());
+        output.clone()
+    }
+}
+
+/// Runs the lines of one page one by one and returns what went wrong.
+fn run(ran: &Ran, page: &str, lines: &[String]) -> Vec<String> {
+    let folder = folder(&page.replace(['/', ' '], "-"));
     let mut wrong = Vec::new();
     for line in lines {
         let (command, code) = expected(line);
@@ -73,7 +121,7 @@ fn run(page: &str, lines: &[String]) -> Vec<String> {
             continue;
         }
         let begun = Instant::now();
-        let output = sh(&folder, &command);
+        let output = ran.run(&folder, &command);
         eprintln!("{:7.1} s  {page}: {line}", begun.elapsed().as_secs_f64());
         if output.status.code() != Some(code) {
             let err = String::from_utf8_lossy(&output.stderr);
@@ -137,11 +185,12 @@ fn verbs(verb: &[String]) -> Vec<Vec<String>> {
 /// what went wrong.
 fn run_all(pages: Vec<(String, Vec<String>)>) -> Vec<String> {
     let left = Mutex::new(pages.into_iter());
+    let ran = Ran::default();
     let work = || {
         let mut wrong = Vec::new();
         let next = || left.lock().unwrap().next();
         while let Some((page, lines)) = next() {
-            wrong.extend(run(&page, &lines));
+            wrong.extend(run(&ran, &page, &lines));
         }
         wrong
     };

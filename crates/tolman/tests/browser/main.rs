@@ -13,6 +13,7 @@ mod pages;
 mod playground;
 mod replay;
 mod report;
+mod site;
 mod tab;
 
 use std::io::Write;

@@ -55,7 +55,7 @@ fn faults(tab: &mut Tab, page: &Path) -> Vec<String> {
 
 /// Asks that nothing is wrong with the pages.
 #[track_caller]
-fn assert_faultless(pages: &[PathBuf]) {
+pub(crate) fn assert_faultless(pages: &[PathBuf]) {
     let mut wrong = Vec::new();
     for page in pages {
         // A tab for each: what one page complains of is not the next one's.
