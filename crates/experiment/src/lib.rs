@@ -33,6 +33,7 @@ mod chunk;
 mod column;
 mod compare;
 mod config_file;
+mod difference;
 mod error;
 mod experiment;
 pub mod files;

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Analysis, Error, Reached, Verdict};
+use super::{Analysis, Doubt, Error, Reached, Tolerance, Verdict};
 
 /// Name of the table with all p-values of pairwise comparisons.
 pub const P_TABLE: &str = "p";
@@ -21,7 +21,7 @@ pub struct Summary {
 }
 
 /// One value of `summary.json`.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct SummaryRow {
     /// Name of the table.
     pub table: String,
@@ -42,27 +42,39 @@ pub struct SummaryRow {
     pub n: u64,
     /// Value that the paper gives.
     pub paper: Option<f64>,
-    /// Verdict, if the paper has a value: `matches`, `better`, `differs` or `cannot tell`.
+    /// Verdict, if the paper has a value: `matches`, `close`, `better`, `differs` or `cannot tell`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub verdict: Option<&'static str>,
     /// Reason why the value cannot be judged.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub why: Option<String>,
-    /// Half the width of the 95 % interval of the difference: the smallest difference that could
-    /// have been detected.
+    /// Number of runs that would do to judge the value.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub runs_needed: Option<u32>,
+    /// Smallest difference that could have been detected, by the 95 % interval of the difference.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub resolution: Option<f64>,
+    /// Tolerance of the verdict with its reason: `±15: mazes are drawn again`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tolerance: Option<String>,
 }
 
-/// Word, reason and resolution of a verdict.
-type Told = (Option<&'static str>, Option<String>, Option<f64>);
-
-fn told(verdict: Option<&Verdict>) -> Told {
-    let Some(verdict) = verdict else {
-        return (None, None, None);
-    };
-    let why = verdict.finding.doubt().map(ToString::to_string);
-    (Some(verdict.finding.word()), why, verdict.resolution())
+impl SummaryRow {
+    /// Returns the row with the verdict and the tolerance that it rests on.
+    fn judged(self, verdict: Option<&Verdict>, tolerance: Option<Tolerance>) -> Self {
+        let Some(verdict) = verdict else {
+            return self;
+        };
+        let doubt = verdict.finding.doubt();
+        Self {
+            verdict: Some(verdict.finding.word()),
+            why: doubt.map(ToString::to_string),
+            runs_needed: doubt.and_then(Doubt::runs_needed),
+            resolution: verdict.resolution,
+            tolerance: tolerance.map(|Tolerance { within, reason }| format!("{within}: {reason}")),
+            ..self
+        }
+    }
 }
 
 impl Summary {
@@ -77,8 +89,7 @@ impl Summary {
                             .iter()
                             .filter(|measured| measured.row == row.name)
                             .map(|measured| {
-                                let (verdict, why, resolution) = told(measured.verdict.as_ref());
-                                SummaryRow {
+                                let summary = SummaryRow {
                                     table: table.table.name.clone(),
                                     row: row.name.clone(),
                                     metric: metric.metric.name.clone(),
@@ -87,10 +98,10 @@ impl Summary {
                                     sd: measured.sd,
                                     n: measured.n,
                                     paper: measured.paper.as_ref().map(|paper| paper.value),
-                                    verdict,
-                                    why,
-                                    resolution,
-                                }
+                                    ..SummaryRow::default()
+                                };
+                                let tolerance = metric.metric.tolerance;
+                                summary.judged(measured.verdict.as_ref(), tolerance)
                             }),
                     );
                 }
@@ -98,20 +109,16 @@ impl Summary {
         }
         for table in &analysis.tables {
             rows.extend(table.pairs.iter().map(|pair| {
-                let (verdict, why, resolution) = told(pair.verdict.as_ref());
-                SummaryRow {
+                let summary = SummaryRow {
                     table: P_TABLE.to_owned(),
                     row: format!("{}: {}", table.table.name, pair.name()),
                     metric: "p".to_owned(),
                     value: pair.contrast.p.value(),
-                    reached: None,
-                    sd: None,
                     n: pair.n,
                     paper: pair.paper,
-                    verdict,
-                    why,
-                    resolution,
-                }
+                    ..SummaryRow::default()
+                };
+                summary.judged(pair.verdict.as_ref(), None)
             }));
         }
         Self {

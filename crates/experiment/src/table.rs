@@ -1,5 +1,7 @@
 //! Tables: rows, the metrics that summarize their runs, and the paper's values.
 
+use core::fmt;
+
 use super::{Better, Column, Contrast, Kind, Pairwise, Record, RecordType, Settling};
 use tolman_stats::PValue;
 
@@ -228,8 +230,7 @@ pub struct Row {
     pub name: String,
     /// Values from the paper, at most one for each metric.
     pub paper: Vec<PaperValue>,
-    /// Fixed number of the row's runs, for deterministic rows: one for each case. `None` leaves it
-    /// to the caller.
+    /// Number of the row's runs; `None` leaves it to the caller.
     pub runs: Option<u32>,
     /// Whether the caller cannot change the number of the row's runs.
     pub(super) is_fixed: bool,
@@ -344,11 +345,16 @@ impl Row {
     }
 
     /// Sets a fixed number of runs: one for each of `things` on which it is tried, or as many as in
-    /// the paper.
+    /// the paper. One run means that nothing is left to chance.
     #[must_use]
     pub fn run_each(mut self, things: u32) -> Self {
         self.is_fixed = true;
         self.runs(things)
+    }
+
+    /// Returns whether it leaves nothing to chance: one run tells all.
+    pub(super) const fn is_deterministic(&self) -> bool {
+        self.is_fixed && matches!(self.runs, Some(1))
     }
 
     /// Returns the number of its runs if the caller asks for `runs` of each row.
@@ -437,6 +443,15 @@ impl Metric {
         let sentences = [self.definition.as_str(), better];
         let told: Vec<&str> = sentences.into_iter().filter(|s| !s.is_empty()).collect();
         told.join(" ")
+    }
+
+    /// Returns a difference of two values, with its unit.
+    pub(super) fn difference(&self, by: f64) -> String {
+        let by = format!("{by:.0$}", self.places());
+        match self.unit.as_str() {
+            unit if unit.is_empty() || unit.starts_with("of ") => by,
+            unit => format!("{by} {unit}"),
+        }
     }
 
     /// Returns the number of decimals shown.
@@ -719,6 +734,17 @@ pub enum Within {
     /// This factor, at least 1: 1.5 is from two thirds of the paper's value to one and a half times
     /// that value.
     Factor(f64),
+}
+
+/// `±15`, `±35%` or `×1.5`.
+impl fmt::Display for Within {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Absolute(by) => write!(f, "±{by}"),
+            Self::Relative(share) => write!(f, "±{:.0}%", 100.0 * share),
+            Self::Factor(factor) => write!(f, "×{factor}"),
+        }
+    }
 }
 
 impl Tolerance {

@@ -7,6 +7,8 @@ use super::{Finding, Verdict};
 pub struct VerdictTally {
     /// Number of values that match.
     pub matches: usize,
+    /// Number of values that differ by less than the tolerance.
+    pub close: usize,
     /// Number of values of our own systems that are better.
     pub better: usize,
     /// Number of values that differ.
@@ -25,13 +27,14 @@ impl VerdictTally {
     /// Returns the number of values that could be judged.
     #[must_use]
     pub const fn judged(&self) -> usize {
-        self.matches + self.better + self.differs
+        self.matches + self.close + self.better + self.differs
     }
 
     /// Counts one more verdict.
     fn add(&mut self, finding: &Finding) {
         *match finding {
             Finding::Matches => &mut self.matches,
+            Finding::Close => &mut self.close,
             Finding::Better => &mut self.better,
             Finding::Differs => &mut self.differs,
             Finding::CannotTell(_) => &mut self.cannot_tell,
@@ -49,17 +52,32 @@ impl<'a> FromIterator<&'a Verdict> for VerdictTally {
     }
 }
 
-/// `5 of 18 match, 3 differ, 10 cannot tell`.
+impl VerdictTally {
+    /// Returns the values that do not match, by verdict: `2 close, 3 differ, 8 cannot tell`.
+    pub(super) fn others(&self) -> String {
+        let better = match self.better {
+            0 => String::new(),
+            better => format!("{better} better, "),
+        };
+        let Self {
+            close,
+            differs,
+            cannot_tell,
+            ..
+        } = self;
+        format!("{close} close, {better}{differs} differ, {cannot_tell} cannot tell")
+    }
+}
+
+/// `5 of 18 match, 2 close, 3 differ, 8 cannot tell`.
 impl fmt::Display for VerdictTally {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} of {} match", self.matches, self.all())?;
-        if self.better > 0 {
-            write!(f, ", {} better", self.better)?;
-        }
         write!(
             f,
-            ", {} differ, {} cannot tell",
-            self.differs, self.cannot_tell
+            "{} of {} match, {}",
+            self.matches,
+            self.all(),
+            self.others()
         )
     }
 }
@@ -83,12 +101,16 @@ mod tests {
         ];
         let verdicts = findings.map(verdict);
         let mut tally: VerdictTally = verdicts.iter().collect();
-        assert_eq!(tally.to_string(), "2 of 4 match, 1 differ, 1 cannot tell");
-        tally.add(&Finding::Better);
-        assert_eq!((tally.all(), tally.judged()), (5, 4));
         assert_eq!(
             tally.to_string(),
-            "2 of 5 match, 1 better, 1 differ, 1 cannot tell"
+            "2 of 4 match, 0 close, 1 differ, 1 cannot tell"
+        );
+        tally.add(&Finding::Better);
+        tally.add(&Finding::Close);
+        assert_eq!((tally.all(), tally.judged()), (6, 5));
+        assert_eq!(
+            tally.to_string(),
+            "2 of 6 match, 1 close, 1 better, 1 differ, 1 cannot tell"
         );
     }
 }

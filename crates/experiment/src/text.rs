@@ -4,6 +4,7 @@ use core::fmt::Write;
 
 use super::{
     Analysis, Centre, Finding, Measured, Metric, MetricAnalysis, Reached, Statistic, TableAnalysis,
+    Tolerance, Verdict,
 };
 
 /// Whether text is coloured.
@@ -23,8 +24,10 @@ const NAMES: usize = 28;
 
 /// Returns all tables of an analysis as lines of at most 80 columns.
 ///
-/// After each of our values comes the verdict in words, with the smallest difference that could
-/// have been detected. The last line counts the verdicts.
+/// After each of our values comes the verdict in words, with the tolerance and the smallest
+/// difference that could have been detected, or the number of the reason why it cannot be told. The
+/// reasons are below the table, the reasons for the tolerances below all tables. The last line
+/// counts the verdicts.
 pub fn tables_as_text(analysis: &Analysis, ink: Ink) -> String {
     let mut text = String::new();
     for table in &analysis.tables {
@@ -35,18 +38,51 @@ pub fn tables_as_text(analysis: &Analysis, ink: Ink) -> String {
     }
     let tally = analysis.tally();
     if tally.all() > 0 {
-        if text.contains('±') {
-            text += SEEN;
-        }
+        text += &tolerances(analysis);
         // Writing to a string cannot fail.
         let _ = writeln!(text, "\nOf the paper's values {tally}.");
     }
     text
 }
 
-/// Text after a verdict.
-const SEEN: &str =
-    "\nBehind a verdict: a smaller difference from the paper could not have been seen.\n";
+/// Explanation of the text after a verdict.
+const BESIDE: &str = "Beside a verdict: the tolerance, and in brackets the smallest difference from the paper that \
+                      could have been seen.";
+
+/// Returns the tolerances with the metrics that have them, and their reasons; empty if no value was
+/// judged.
+fn tolerances(analysis: &Analysis) -> String {
+    let mut told: Vec<(Tolerance, Vec<String>)> = Vec::new();
+    for (_, metric, measured) in analysis.values() {
+        let seen = measured
+            .verdict
+            .as_ref()
+            .and_then(|verdict| verdict.resolution);
+        let Some((tolerance, _)) = metric.tolerance.zip(seen) else {
+            continue;
+        };
+        let place = told.iter().position(|(known, _)| *known == tolerance);
+        let place = place.unwrap_or_else(|| {
+            told.push((tolerance, Vec::new()));
+            told.len() - 1
+        });
+        let title = heading(metric);
+        if !told[place].1.contains(&title) {
+            told[place].1.push(title);
+        }
+    }
+    if told.is_empty() {
+        return String::new();
+    }
+    let told = told.iter().map(|(tolerance, titles)| {
+        let Tolerance { within, reason } = tolerance;
+        format!("{within} for {}: {reason}.", titles.join(", "))
+    });
+    let lines = core::iter::once(BESIDE.to_owned()).chain(told);
+    lines.fold("\n".to_owned(), |text, line| {
+        text + &wrapped(&line, WIDTH).join("\n") + "\n"
+    })
+}
 
 /// Returns the words of a text in lines of at most `width` columns; a longer word has a line of its
 /// own.
@@ -107,7 +143,9 @@ fn table_as_text(analysis: &TableAnalysis, ink: Ink) -> String {
     }
     let lengths = table.rows.iter().map(|row| row.name.chars().count());
     let names = lengths.filter(|&length| length <= NAMES).max().unwrap_or(0);
-    let columns: Vec<Column<'_>> = analysis.metrics.iter().map(Column::new).collect();
+    let doubts = doubts(analysis);
+    let columns = analysis.metrics.iter();
+    let columns: Vec<Column<'_>> = columns.map(|one| Column::new(one, &doubts)).collect();
     let mut left = &columns[..];
     while !left.is_empty() {
         let mut room = WIDTH - names;
@@ -117,21 +155,42 @@ fn table_as_text(analysis: &TableAnalysis, ink: Ink) -> String {
             fits
         });
         let (block, rest) = left.split_at(fits.count().max(1));
-        text += &block_as_text(analysis, names, block, ink);
+        text += &block_as_text(analysis, names, block, &doubts, ink);
         left = rest;
     }
-    let missing = table.missing().into_iter().map(str::to_owned);
     let pairs = analysis.pairs.iter().map(|pair| {
-        let paper = pair
-            .paper
-            .map_or_else(String::new, |p| format!(", paper {p}"));
+        let paper = pair.paper.zip(pair.verdict.as_ref());
+        let paper = paper.map_or_else(String::new, |(p, verdict)| {
+            format!(
+                ", paper {p}: {}{}",
+                verdict.finding.word(),
+                doubt_number(verdict, &doubts)
+            )
+        });
         format!("p = {} for {}{paper}", pair.contrast.p, pair.name())
     });
-    for line in missing.chain(pairs).flat_map(|line| wrapped(&line, WIDTH)) {
+    let missing = table.missing().into_iter().map(str::to_owned);
+    let missing = missing.filter(|missing| !doubts.contains(missing));
+    let numbered = (1..).zip(&doubts);
+    let numbered = numbered.map(|(number, doubt)| format!("[{number}] {doubt}"));
+    let lines = pairs.chain(missing).chain(numbered);
+    for line in lines.flat_map(|line| wrapped(&line, WIDTH)) {
         text += &line;
         text.push('\n');
     }
     text
+}
+
+/// Returns the reasons why values of the table cannot be judged, each once.
+fn doubts(analysis: &TableAnalysis) -> Vec<String> {
+    let mut doubts = Vec::new();
+    for doubt in analysis.verdicts().filter_map(|one| one.finding.doubt()) {
+        let doubt = doubt.to_string();
+        if !doubts.contains(&doubt) {
+            doubts.push(doubt);
+        }
+    }
+    doubts
 }
 
 /// Gap between two columns.
@@ -142,6 +201,7 @@ fn block_as_text(
     analysis: &TableAnalysis,
     names: usize,
     columns: &[Column<'_>],
+    doubts: &[String],
     ink: Ink,
 ) -> String {
     let mut lines: Vec<String> = Vec::new();
@@ -173,7 +233,7 @@ fn block_as_text(
             let measured = rows.find(|measured| measured.row == row.name);
             let (paper, ours) =
                 measured.map_or_else(Default::default, |m| cells(&column.metric.metric, m));
-            let verdict = verdict(&column.metric.metric, measured);
+            let verdict = verdict(&column.metric.metric, measured, doubts);
             let painted = told(&verdict, measured, ink);
             line += &column.line(&paper, &ours, &verdict, &painted);
         }
@@ -196,14 +256,14 @@ struct Column<'a> {
 }
 
 impl<'a> Column<'a> {
-    fn new(metric: &'a MetricAnalysis) -> Self {
+    fn new(metric: &'a MetricAnalysis, doubts: &[String]) -> Self {
         let width = |text: String| text.chars().count();
         let rows = || metric.rows.iter();
         let cells = || rows().map(|row| cells(&metric.metric, row));
         let of_paper = rows().any(|row| row.paper.is_some());
         let paper = cells().map(|cell| width(cell.0)).max().unwrap_or(0);
         let ours = cells().map(|cell| width(cell.1)).max().unwrap_or(0);
-        let verdicts = rows().map(|row| width(verdict(&metric.metric, Some(row))));
+        let verdicts = rows().map(|row| width(verdict(&metric.metric, Some(row), doubts)));
         let mut column = Self {
             metric,
             heading: Vec::new(),
@@ -242,13 +302,29 @@ impl<'a> Column<'a> {
 /// Maximum width of a heading's line, columns.
 const HEADING: usize = 14;
 
-/// Returns the verdict in words with the smallest detectable difference; empty without a verdict.
-fn verdict(metric: &Metric, measured: Option<&Measured>) -> String {
-    let judged = measured.and_then(|measured| Some((measured, measured.verdict.as_ref()?)));
-    judged.map_or_else(String::new, |(measured, verdict)| {
-        let seen = seen(metric, measured).unwrap_or_default();
-        format!("{}{seen}", verdict.finding.word())
-    })
+/// Returns the verdict in words with the tolerance, the smallest detectable difference and the
+/// number of the reason why it cannot be told: `close ±15 (3.1)`, `cannot tell (20.3) [1]`. Empty
+/// without a verdict.
+fn verdict(metric: &Metric, measured: Option<&Measured>, doubts: &[String]) -> String {
+    let Some(verdict) = measured.and_then(|measured| measured.verdict.as_ref()) else {
+        return String::new();
+    };
+    let tolerance = metric
+        .tolerance
+        .filter(|_| verdict.finding.doubt().is_none());
+    let tolerance = tolerance.map_or_else(String::new, |one| format!(" {}", one.within));
+    let resolution = verdict.resolution;
+    let resolution =
+        resolution.map_or_else(String::new, |by| format!(" ({by:.0$})", metric.places()));
+    let doubt = doubt_number(verdict, doubts);
+    format!("{}{tolerance}{resolution}{doubt}", verdict.finding.word())
+}
+
+/// Returns the number of the reason why a value cannot be judged, as ` [1]`; empty if it can.
+fn doubt_number(verdict: &Verdict, doubts: &[String]) -> String {
+    let doubt = verdict.finding.doubt().map(ToString::to_string);
+    let place = doubt.and_then(|doubt| doubts.iter().position(|known| *known == doubt));
+    place.map_or_else(String::new, |place| format!(" [{}]", place + 1))
 }
 
 /// Returns the text of a verdict in its colour.
@@ -256,18 +332,11 @@ fn told(text: &str, measured: Option<&Measured>, ink: Ink) -> String {
     let verdict = measured.and_then(|measured| measured.verdict.as_ref());
     let colour = match verdict.map(|verdict| &verdict.finding) {
         None => return text.to_owned(),
-        Some(Finding::Matches | Finding::Better) => "32",
+        Some(Finding::Matches | Finding::Close | Finding::Better) => "32",
         Some(Finding::Differs) => "31",
         Some(Finding::CannotTell(_)) => "33",
     };
     painted(text, colour, ink)
-}
-
-/// Returns the smallest detectable difference, as ` ± 12.3`; `None` if it is unknown.
-pub(crate) fn seen(metric: &Metric, measured: &Measured) -> Option<String> {
-    let resolution = measured.verdict.as_ref()?.resolution()?;
-    let decimals = metric.places();
-    Some(format!(" ±{resolution:.decimals$}"))
 }
 
 fn cells(metric: &Metric, measured: &Measured) -> (String, String) {

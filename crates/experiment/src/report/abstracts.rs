@@ -48,13 +48,23 @@ fn differs((table, metric, measured): (&Table, &Metric, &Measured)) -> Option<St
     ))
 }
 
-/// Returns the most frequent reason why values cannot be judged.
+/// Returns the most frequent reason why values cannot be judged, with the greatest number of runs
+/// that would do.
 fn doubt<'a>(values: impl Iterator<Item = &'a Measured>) -> Option<String> {
     let mut doubts: Vec<(&Doubt, usize)> = Vec::new();
     for verdict in values.filter_map(|measured| measured.verdict.as_ref()) {
         if let Finding::CannotTell(doubt) = &verdict.finding {
-            match doubts.iter_mut().find(|(known, _)| *known == doubt) {
-                Some((_, count)) => *count += 1,
+            let is_same = |known: &Doubt| match (known.runs_needed(), doubt.runs_needed()) {
+                (Some(_), Some(_)) => true,
+                _ => known == doubt,
+            };
+            match doubts.iter_mut().find(|(known, _)| is_same(known)) {
+                Some((known, count)) => {
+                    *count += 1;
+                    if known.runs_needed() < doubt.runs_needed() {
+                        *known = doubt;
+                    }
+                }
                 None => doubts.push((doubt, 1)),
             }
         }

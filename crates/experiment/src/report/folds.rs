@@ -25,6 +25,11 @@ const FOLDED: f64 = 56.0;
 const JUDGED_ROW: f64 = 56.0;
 const ROW: f64 = 40.0;
 
+/// Height of a metric's heading with a tolerance, whose reason may take a second line, and of other
+/// headings, px.
+const JUDGED_HEADING: f64 = 66.0;
+const HEADING: f64 = 44.0;
+
 /// Height of a figure's caption, px.
 const CAPTION: f64 = 90.0;
 
@@ -119,9 +124,9 @@ impl Folds {
 
     fn of_table(&mut self, part: &Part<'_>) -> Shown {
         let analysis = part.table;
-        let row = match analysis.verdicts().next() {
-            Some(_) => JUDGED_ROW,
-            None => ROW,
+        let (row, heading) = match analysis.verdicts().next() {
+            Some(_) => (JUDGED_ROW, JUDGED_HEADING),
+            None => (ROW, HEADING),
         };
         let (mut metrics, mut rows) = (0, 0);
         for metric in table::varying(analysis) {
@@ -133,7 +138,7 @@ impl Folds {
             rows = more;
         }
         let notes = 44.0 * (analysis.table.missing().len() + 2) as f64;
-        let mut height = 150.0 + notes + row * rows as f64 + 44.0 * metrics as f64;
+        let mut height = 150.0 + notes + row * rows as f64 + heading * metrics as f64;
         let (line, line_height) = match self.figures {
             true => first_line(&part.figures),
             false => (0, 0.0),

@@ -46,7 +46,7 @@ pub(super) fn cards(outcome: &ExperimentOutcome) -> Markup {
     html! {
         div.cards {
             @if told.all() > 0 {
-                (card(&format!("{} of {} match", told.matches, told.all()), &others(&told)))
+                (card(&format!("{} of {} match", told.matches, told.all()), &format!("of the paper's values; {}", told.others())))
             }
             (card(&grouped(total), &runs_of_rows(outcome)))
             @if outcome.played < total {
@@ -63,7 +63,7 @@ pub(super) fn cards(outcome: &ExperimentOutcome) -> Markup {
     }
 }
 
-/// Returns links to the tables, with their number of matching values; empty for a single table.
+/// Returns links to the tables, with their shares of matching values; empty for a single table.
 pub(super) fn contents(outcome: &ExperimentOutcome) -> Markup {
     let tables = &outcome.analysis.tables;
     html! {
@@ -73,7 +73,7 @@ pub(super) fn contents(outcome: &ExperimentOutcome) -> Markup {
                     @let told: VerdictTally = table.verdicts().collect();
                     a href={ "#table-" (number) } {
                         "Table " (table.table.name)
-                        @if told.all() > 0 { span { (told) } }
+                        (matching(&told))
                     }
                 }
             }
@@ -81,18 +81,12 @@ pub(super) fn contents(outcome: &ExperimentOutcome) -> Markup {
     }
 }
 
-/// Returns the number of the paper's values that ours do not match, by verdict.
-fn others(told: &VerdictTally) -> String {
-    let better = match told.better {
-        0 => String::new(),
-        better => format!("{better} better, "),
-    };
-    let VerdictTally {
-        differs,
-        cannot_tell,
-        ..
-    } = told;
-    format!("of the paper's values; {better}{differs} differ, {cannot_tell} cannot tell")
+/// Returns how many of the paper's values match, short enough for a list of links; the pointer
+/// shows the rest. Empty if the paper has none.
+pub(super) fn matching(told: &VerdictTally) -> Markup {
+    html! {
+        @if told.all() > 0 { span title=(told) { (told.matches) "/" (told.all()) } }
+    }
 }
 
 /// Returns the number of runs of each row, if all have the same number.

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::replays;
 
-use crate::{Centre, ExperimentOutcome, Metric, RESAMPLES, Statistic, Within, heading};
+use crate::{Centre, ExperimentOutcome, Metric, RESAMPLES, Statistic};
 
 /// Returns the notes at the end of the page. They explain only what the page shows.
 pub(super) fn notes(outcome: &ExperimentOutcome) -> Markup {
@@ -33,12 +33,15 @@ pub(super) fn notes(outcome: &ExperimentOutcome) -> Markup {
             summary { h2 { "How to read this" } }
             ul {
                 @if judged {
-                    li { b { "Verdict. " } "Ours " b { "differs" } " from the paper's value where the 95 % interval of the difference, with \
-                         the spread of both samples, excludes 0 and the difference exceeds the tolerance. It " b { "matches" }
-                         " where the difference is within the tolerance and the interval includes 0. Of all else the runs " b { "cannot tell" }
-                         ". A system of our own may be " b { "better" } ". Behind ± stands half the width of the interval: a smaller difference \
-                         could not have been seen. Shares: Newcombe's interval; means with the paper's spread: Welch's; all else: "
-                         (RESAMPLES) " resamples of our runs, which stand for the paper's too. " (tolerances(&metrics))
+                    li { b { "Verdict. " } "A difference is sure where its 95 % interval, with the spread of both samples, excludes 0. Ours "
+                         b { "differs" } " from the paper's value where the difference is sure and exceeds the tolerance. It is " b { "close" }
+                         " where the difference is sure and within the tolerance, and " b { "matches" } " where it is not sure and within the \
+                         tolerance. Otherwise the sample is too small, and the runs " b { "cannot tell" } "; the cell says how many would do. \
+                         A system of our own may be " b { "better" } ". Fewer than five runs differ only where ours leaves nothing to \
+                         chance and the paper gives no spread. Behind a word stands the tolerance, whose reason is beside the metric's name. \
+                         In brackets is how far the interval reaches towards 0: a smaller difference could not have been seen. Shares: Newcombe's \
+                         interval; means with the paper's spread: Welch's; all else: "
+                         (RESAMPLES) " resamples of our runs, which stand for the paper's too."
                     }
                 }
                 li { b { "95 % interval. " }
@@ -82,33 +85,4 @@ pub(super) fn notes(outcome: &ExperimentOutcome) -> Markup {
             }
         } }
     }
-}
-
-/// Returns the tolerances in words, each metric once.
-fn tolerances(metrics: &[&Metric]) -> String {
-    let mut told: Vec<String> = Vec::new();
-    for metric in metrics {
-        let Some(tolerance) = metric.tolerance else {
-            continue;
-        };
-        let decimals = metric.places();
-        let size = match (tolerance.within, &metric.statistic) {
-            (Within::Absolute(points), Statistic::Percent(_)) => {
-                format!("{} ± {points:.0} percentage points", metric.title)
-            }
-            (Within::Absolute(by), _) => format!("{} ± {by:.decimals$}", heading(metric)),
-            (Within::Relative(share), _) => {
-                format!("{} ± {:.0} %", metric.title, 100.0 * share)
-            }
-            (Within::Factor(factor), _) => format!("{} a factor of {factor}", metric.title),
-        };
-        let text = format!("{size} ({})", tolerance.reason);
-        if !told.contains(&text) {
-            told.push(text);
-        }
-    }
-    if told.is_empty() {
-        return String::new();
-    }
-    format!("Tolerances: {}.", told.join("; "))
 }

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::header::SIGNIFICANT;
-use crate::TableAnalysis;
+use crate::{Doubt, RowPair, TableAnalysis};
 
 /// Returns the table of all pairs of rows, with the paper's p-value and ours.
 pub(super) fn table(analysis: &TableAnalysis) -> Markup {
@@ -33,4 +33,9 @@ pub(super) fn table(analysis: &TableAnalysis) -> Markup {
             } } }
         } }
     }
+}
+
+/// Returns the reason why the paper's p-value of a pair is not judged; `None` if it gives none.
+pub(super) fn doubt(pair: &RowPair) -> Option<&Doubt> {
+    pair.verdict.as_ref()?.finding.doubt()
 }

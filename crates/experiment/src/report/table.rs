@@ -6,7 +6,7 @@ use super::folds::{Part, Shown};
 use super::header::{SIGNIFICANT, counted};
 use super::{figures, pairs};
 use crate::{
-    Centre, Comparison, Measured, Metric, MetricAnalysis, Reached, Statistic, TableAnalysis,
+    Centre, Comparison, Doubt, Measured, Metric, MetricAnalysis, Reached, Statistic, TableAnalysis,
     Verdict, VerdictTally, heading, ours, value_with_spread,
 };
 use tolman_draw::Series;
@@ -33,6 +33,7 @@ pub(super) fn section(number: Option<u32>, part: &Part<'_>, shown: Shown) -> Mar
                     h2 { "Table " (table.name) @if !table.title.is_empty() { " · " (table.title) } }
                     @if told.all() > 0 { " " span.told { (told) } }
                 }
+                @for missing in table.missing() { p.note.missing { (missing) } }
                 (matrix(analysis, first))
                 @if !more.is_empty() {
                     details.more {
@@ -45,9 +46,11 @@ pub(super) fn section(number: Option<u32>, part: &Part<'_>, shown: Shown) -> Mar
                     details.more {
                         summary { "Each row with each: " (counted(analysis.pairs.len(), "pair")) }
                         (pairs::table(analysis))
+                        @if let Some(doubt) = analysis.pairs.iter().find_map(pairs::doubt) {
+                            p.note { "Of the paper's p nobody can tell: " (doubt) "." }
+                        }
                     }
                 }
-                @for missing in table.missing() { p.note.missing { (missing) } }
                 @if !table.note.is_empty() { p.note { (table.note) } }
                 (figures::grid(seen))
                 (figures::folded(folded, !seen.is_empty()))
@@ -164,6 +167,7 @@ fn group(analysis: &TableAnalysis, columns: &Columns<'_>, metric: &MetricAnalysi
             tr.metric {
                 th colspan=(columns.count()) scope="rowgroup" title=[explained(&metric.metric)] {
                     (heading(&metric.metric))
+                    @if let Some(tolerance) = tolerance(metric) { " " span.tolerance { (tolerance) } }
                 }
             }
             @for measured in &metric.rows {
@@ -172,6 +176,16 @@ fn group(analysis: &TableAnalysis, columns: &Columns<'_>, metric: &MetricAnalysi
             }
         }
     }
+}
+
+/// Returns the tolerance of the metric's verdicts with its reason; `None` without verdicts.
+fn tolerance(metric: &MetricAnalysis) -> Option<String> {
+    let is_judged = metric.rows.iter().any(|row| row.verdict.is_some());
+    let tolerance = metric.metric.tolerance.filter(|_| is_judged)?;
+    Some(format!(
+        "tolerance {}: {}",
+        tolerance.within, tolerance.reason
+    ))
 }
 
 /// Returns the explanation shown when the pointer is on the heading of a metric; `None` if there is
@@ -244,38 +258,38 @@ fn magnitude(a12: f64) -> &'static str {
     }
 }
 
-/// Returns the verdict, with the smallest difference that could have been detected. The tolerance
-/// or the reason shows when the pointer is on it.
+/// Returns the verdict, with the tolerance, the smallest difference that could have been detected,
+/// and the reason if the value cannot be judged. The tolerated range shows when the pointer is on
+/// it.
 fn verdict(metric: &Metric, verdict: Option<&Verdict>) -> Markup {
+    let decimals = metric.places();
+    let accepted = verdict.and_then(|verdict| verdict.accepted);
+    let range = accepted.map(|range| {
+        format!(
+            "tolerated: {:.decimals$} – {:.decimals$}",
+            range.low, range.high
+        )
+    });
     html! {
         @if let Some(verdict) = verdict {
             @let word = verdict.finding.word();
-            td.verdict data-column="verdict" data-value=(word) title=(told(metric, verdict)) {
-                @if let Some(resolution) = verdict.resolution() {
-                    span.accepted { "± " (format!("{resolution:.0$}", metric.places())) }
-                } @else if let Some(doubt) = verdict.finding.doubt() {
-                    span.accepted { (doubt) }
-                }
-                // The line breaks here if they do not fit side by side.
-                " "
+            td.verdict data-column="verdict" data-value=(word) title=[range] {
                 span class={ "badge " (word.replace(' ', "-")) } { (word) }
+                @if let (Some(tolerance), None) = (metric.tolerance, verdict.finding.doubt()) {
+                    " " span.accepted { (tolerance.within) }
+                }
+                @if let Some(resolution) = verdict.resolution {
+                    " " span.accepted { (format!("({resolution:.decimals$})")) }
+                }
+                @match verdict.finding.doubt() {
+                    // The files are named above the table.
+                    Some(Doubt::NoData(_)) => span.why { "its files are missing" },
+                    Some(doubt) => span.why { (doubt) },
+                    None => {}
+                }
             }
         } @else { td.verdict.none { "–" } }
     }
-}
-
-/// Returns the tolerated range of a metric's values, and the reason if the value cannot be judged.
-fn told(metric: &Metric, verdict: &Verdict) -> String {
-    let decimals = metric.places();
-    let within = verdict.accepted.map(|accepted| {
-        format!(
-            "tolerated: {:.decimals$} – {:.decimals$}",
-            accepted.low, accepted.high
-        )
-    });
-    let why = verdict.finding.doubt().map(ToString::to_string);
-    let parts: Vec<String> = within.into_iter().chain(why).collect();
-    parts.join("; ")
 }
 
 /// Returns the median if the value is a mean, and the mean if it is a median.

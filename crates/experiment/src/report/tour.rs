@@ -3,9 +3,19 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::folds::{Folds, Part, Shown};
+use super::header::matching;
 use super::{figures, head, table};
 use crate::ExperimentOutcome;
 use tolman_draw::Figure;
+
+/// Returns a text whose parts between backticks are code.
+fn with_code(text: &str) -> Markup {
+    html! {
+        @for (place, part) in text.split('`').enumerate() {
+            @if place % 2 == 1 { code { (part) } } @else { (part) }
+        }
+    }
+}
 
 /// Returns the page of a tour: tables, figures and verdicts of every experiment.
 ///
@@ -26,12 +36,12 @@ pub fn tour_html(outcomes: &[ExperimentOutcome], last: &str) -> String {
             main {
                 header {
                     h1 { "A tour of all experiments" }
-                    p.source { "The main tables at small counts, beside the papers'. " (last) }
+                    p.source { "The main tables at small counts, beside the papers'. " (with_code(last)) }
                 }
                 nav aria-label="experiments" {
                     @for (number, outcome) in numbered() {
                         a href={ "#experiment-" (number) } {
-                            (outcome.entry.name) span { (outcome.analysis.tally()) }
+                            (outcome.entry.name) (matching(&outcome.analysis.tally()))
                         }
                     }
                 }
@@ -80,7 +90,8 @@ impl<'a> Stop<'a> {
                 h1 { (number) " · " (outcome.entry.title) }
                 @if !outcome.entry.source.is_empty() { p.source { (outcome.entry.source) } }
                 p.meta {
-                    (outcome.analysis.tally()) " of the paper's values · "
+                    @let told = outcome.analysis.tally();
+                    @if told.all() > 0 { "of the paper's values " (told) " · " }
                     a href=(own) { "its own page, with replays" }
                     " · make it again: " code { (outcome.command) }
                 }

@@ -40,10 +40,12 @@ fn summary_json_has_one_row_for_each_value_and_the_agreed_keys() {
             "row",
             "sd",
             "table",
+            "tolerance",
             "value",
             "verdict"
         ]
     );
+    assert_eq!(rows[0]["tolerance"], "±15: darts scatter");
     assert!(rows[0]["sd"].is_null(), "a percentage has no spread");
     assert_eq!(rows[0]["paper"], 60.0);
     assert_eq!(
@@ -304,7 +306,7 @@ fn metrics_are_titled_explained_and_judged_by_their_columns() {
         ("Lower is better.", "miss a throw"),
     ] {
         assert!(
-            page.contains(&format!("title=\"{explanation}\">{heading}</th>")),
+            page.contains(&format!("title=\"{explanation}\">{heading}")),
             "{heading}"
         );
     }
@@ -412,6 +414,30 @@ fn a_table_without_its_files_stands_with_the_papers_values() {
 }
 
 #[test]
+fn a_few_runs_say_how_many_would_do() {
+    let out = fresh("few-runs").join("out");
+    let few = Options {
+        runs: Some(2),
+        ..options(&out)
+    };
+    let mut darts = Darts::new();
+    // Two novices of the near table miss by far more than any tolerance.
+    darts.tables[0].rows[0].paper[1].value = 1.0;
+    let outcome = run(&darts, &few).0.unwrap();
+    assert_eq!(outcome.analysis.disagreements().count(), 0);
+    let mut rows = outcome.summary.rows.iter();
+    let throws = rows.find(|row| row.row == "Novice" && row.metric == "throws");
+    let throws = throws.unwrap();
+    let needed = throws.runs_needed.unwrap();
+    let why = format!("too few runs: {needed} would do");
+    assert_eq!(throws.why.as_ref(), Some(&why));
+    let text = tables_as_text(&outcome.analysis, Ink::Plain);
+    for told in [text, read(&out, "report.html"), read(&out, "summary.json")] {
+        assert!(told.contains(&why), "{told}");
+    }
+}
+
+#[test]
 fn a_quantity_has_one_tolerance() {
     let out = fresh("two-tolerances").join("out");
     let mut darts = Darts::new();
@@ -442,7 +468,17 @@ fn tables_show_ours_beside_the_papers() {
     assert!(!text.contains('\u{1b}'));
     let widest = text.lines().map(|line| line.chars().count()).max();
     assert!(widest.unwrap() <= 80, "{text}");
-    assert!(text.contains("matches ±") && text.contains("cannot tell"));
+    // The tolerance is beside the word, the reasons are below.
+    assert!(
+        text.contains("matches ±15 (") && text.contains("cannot tell (0.03) [1]"),
+        "{text}"
+    );
+    assert!(text.contains("\n[1] no tolerance is stated\n"), "{text}");
+    assert!(
+        text.contains("\n±15 for success %: darts scatter.\n"),
+        "{text}"
+    );
+    assert!(text.contains("\n±35% for throws: arms tire.\n"), "{text}");
     assert!(tables_as_text(&outcome.analysis, Ink::Coloured).contains("\u{1b}[32mmatches"));
 }
 

@@ -320,6 +320,6 @@ fn told((table, metric, measured): (&Table, &Metric, &Measured)) -> Option<Strin
         paper.value,
         accepted.low,
         accepted.high,
-        verdict.resolution()?
+        verdict.resolution?
     ))
 }
