@@ -30,6 +30,7 @@ impl PaperRow {
     fn row(&self) -> Row {
         let (name, searcher, file, paper) = self.line;
         let mut row = Row::new(name);
+        row.own = name == OURS;
         if let Some((moves, score)) = paper {
             row = row
                 .paper(MouseRun::move_length, moves)
@@ -93,7 +94,7 @@ const TABLES: [(&str, &str, &str, &[Line]); 4] = [
         &[
             (TARGET, Searcher::Target, TAIWAN, Some((70.0, 83.967))),
             ("target_search on apec2016", Searcher::Target, APEC, None),
-            (OURS, Searcher::Certify, TAIWAN, None),
+            (OURS, Searcher::Certify, TAIWAN, Some((70.0, 83.967))),
             (
                 "certifying search on apec2016",
                 Searcher::Certify,
@@ -110,7 +111,8 @@ const fn lines(maze: &'static str, [low, high, target]: [(f64, f64); 3]) -> [Lin
         (COUNTER_75, Searcher::Counter75, maze, Some(high)),
         (TARGET, Searcher::Target, maze, Some(target)),
         (RANDOM, Searcher::Random, maze, None),
-        (OURS, Searcher::Certify, maze, None),
+        // Ours is held against the best of the paper's.
+        (OURS, Searcher::Certify, maze, Some(target)),
     ]
 }
 
