@@ -123,7 +123,7 @@ impl Difference {
         let interval = match self.spread {
             Spread::None => ConfidenceInterval::new(self.observed, self.observed),
             Spread::Shares { ours, paper, whole } => {
-                // Our share of so many runs may lie between two counts: the interval holds both.
+                // Our share of these runs may lie between two counts: the interval holds both.
                 let (all, made) = (ours * u64::from(runs), u64::from(self.runs));
                 let of = |hits| {
                     let ours = (hits, u64::from(runs));

@@ -111,7 +111,7 @@ const fn lines(maze: &'static str, [low, high, target]: [(f64, f64); 3]) -> [Lin
         (COUNTER_75, Searcher::Counter75, maze, Some(high)),
         (TARGET, Searcher::Target, maze, Some(target)),
         (RANDOM, Searcher::Random, maze, None),
-        // Ours is held against the best of the paper's.
+        // Ours is compared with the best of the paper's.
         (OURS, Searcher::Certify, maze, Some(target)),
     ]
 }
