@@ -3,7 +3,7 @@ use tolman_maze::Grid;
 /// The maze does not fit into the map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "the maze is {} × {} cells and the map holds {side} × {side}: use a larger map",
+    "the maze is {} × {} cells and the map holds {side} × {side} at most",
     grid.width(), grid.height()
 )]
 pub struct TooLarge {

@@ -38,9 +38,9 @@ impl Claim {
     pub fn complaint(end: &TaskEnd, task: Task, outing: &dyn Outing) -> Option<String> {
         match (end, task) {
             (TaskEnd::GaveUp { why }, _) => Some(why.clone()),
-            (TaskEnd::OutOfTime, _) => Some(
-                "it ran out of time before it had learned all: give it more --steps".to_owned(),
-            ),
+            (TaskEnd::OutOfTime, _) => {
+                Some("it ran out of time before it had learned all".to_owned())
+            }
             (TaskEnd::Done, Task::Explore) if Self::of(end, false, outing) == Self::Wrong => {
                 let why = "by its own account it is more likely wrong than right";
                 Some(outing.doubt().unwrap_or_else(|| why.to_owned()))

@@ -176,7 +176,7 @@ impl Evidence {
         let laid = LaidOver::of_places(places.into_iter(), &sites).ok_or(NoTruth)?;
         if laid.error_m > MOST_ERROR {
             return Ok(Some(format!(
-                "its places lie {:.1} m from where they truly are: try another --seed",
+                "its places lie {:.1} m from where they truly are",
                 laid.error_m
             )));
         }
@@ -189,7 +189,7 @@ impl Evidence {
         let share = covered as f64 / cells.len().max(1) as f64;
         Ok((share < LEAST_COVERED).then(|| {
             format!(
-                "it has places near {:.0} % of the floor alone: learn longer",
+                "it has places near {:.0} % of the floor alone",
                 100.0 * share
             )
         }))

@@ -44,7 +44,7 @@ impl MapJudgement {
         let recall = percent(self.link_recall);
         if self.is_right_of_visited {
             return Some(format!(
-                "it is right as far as the robot went, but has {recall} of the true ways alone: learn longer"
+                "it is right as far as the robot went, but has {recall} of the true ways alone"
             ));
         }
         let links = match self.link_precision {
@@ -55,7 +55,7 @@ impl MapJudgement {
             format!("{} of the visits at the same place", percent(share))
         });
         Some(format!(
-            "{:.2} places for each true one, {purity}; {links}, and {recall} of the true ways are on it: learn longer, or try another --seed",
+            "{:.2} places for each true one, {purity}; {links}, and {recall} of the true ways are on it",
             self.places
         ))
     }

@@ -312,7 +312,7 @@ impl Office {
         match distances.min_by(|a, b| a.0.total_cmp(&b.0)) {
             Some((distance, place)) if distance < 0.5 * self.separation() => Ok(*place),
             _ => Err(format!(
-                "the robot is at ({}, {}) m, which is not a place; lower the noise",
+                "the robot is at ({}, {}) m, which is not a place",
                 at.x, at.y
             )
             .into()),

@@ -250,14 +250,11 @@ impl SurveyFile {
         let there_are = self.surveyed.office.places(&[]).len();
         if !is_isomorphic {
             return Some(format!(
-                "{places} places for the {visited} that were visited, purity {purity:.3}: places look too much alike; try walls of more colours, --set colours=8. `tolman map show` lists the places that may be one"
+                "{places} places for the {visited} that were visited, purity {purity:.3}: places look too much alike. `tolman map show` lists the places that may be one"
             ));
         }
-        (task == Task::Explore && visited < there_are).then(|| {
-            format!(
-                "{visited} of {there_are} places were visited: give it more moves, --set moves=2000"
-            )
-        })
+        (task == Task::Explore && visited < there_are)
+            .then(|| format!("{visited} of {there_are} places were visited"))
     }
 
     /// Returns where on the map the robot came to a goal of the maze, if it did: at a place, or

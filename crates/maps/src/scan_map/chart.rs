@@ -258,10 +258,10 @@ impl ScanChart {
     #[must_use]
     pub fn doubt(&self) -> Option<&'static str> {
         if self.goal.is_empty() {
-            return Some("the robot never sensed the goal: give it more --steps");
+            return Some("the robot never sensed the goal");
         }
         (self.surprise > ScanMap::DOUBTFUL).then_some(
-            "its walls contradict one another, as where a robot is lifted while it learns: learn it again",
+            "its walls contradict one another, as where a robot is lifted while it learns",
         )
     }
 

@@ -194,7 +194,7 @@ fn a_larger_maze_does_not_fit() {
     assert_eq!(error, TooLarge { grid, side: 16 });
     assert_eq!(
         error.to_string(),
-        "the maze is 17 × 3 cells and the map holds 16 × 16: use a larger map"
+        "the maze is 17 × 3 cells and the map holds 16 × 16 at most"
     );
     assert!(WallMap::<32>::new(Grid::new(32, 32), ClosedCells::Possible).is_ok());
 }

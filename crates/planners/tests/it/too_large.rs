@@ -36,7 +36,7 @@ fn a_maze_that_does_not_fit_is_refused_by_its_size() {
     let grid = Grid::new(17, 4);
     assert_eq!(
         TooLarge { grid, side: 16 }.to_string(),
-        "the maze is 17 × 4 cells and the map holds 16 × 16: use a larger map"
+        "the maze is 17 × 4 cells and the map holds 16 × 16 at most"
     );
 }
 

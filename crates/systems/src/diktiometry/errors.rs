@@ -25,7 +25,7 @@ pub enum RoutineError<E: Error + 'static> {
     #[error("the robot stands at the landmark that it seeks")]
     Found,
     /// No place came in sight.
-    #[error("after {steps} time steps the way {direction} has led to no place: lower the noise")]
+    #[error("after {steps} time steps the way {direction} has led to no place")]
     Lost {
         /// Direction of the way.
         direction: Direction,

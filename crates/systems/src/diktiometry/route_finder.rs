@@ -162,7 +162,7 @@ impl RouteFinder {
             Task::Reach(Goal::Landmark(landmark)) => {
                 match self.goal.filter(|_| landmark == Landmark::Goal) {
                     None => {
-                        return give_up("the goal is not on the map: learn it with more moves");
+                        return give_up("the goal is not on the map");
                     }
                     Some(LandmarkSpot::Place(place)) => Some(place),
                     Some(LandmarkSpot::Way(place, way)) => {
@@ -191,7 +191,7 @@ impl RouteFinder {
     fn go_along(&mut self, from: PlaceId, way: Direction) -> Next {
         match self.shut.insert((from, Action(way.index() as u32))) && self.exits[way.index()] {
             true => Next::Continue(way),
-            false => give_up("the goal is not where it is on the map: learn it again"),
+            false => give_up("the goal is not where it is on the map"),
         }
     }
 

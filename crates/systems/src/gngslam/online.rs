@@ -533,13 +533,8 @@ impl Mapper for OnlineSlam {
     fn doubt(&self) -> Option<String> {
         let is_goal = |sighting: &LandmarkSighting| sighting.landmark == Landmark::Goal;
         match (self.map.is_localized(), self.sightings.iter().any(is_goal)) {
-            (false, _) => Some(
-                "the robot does not know where it is on it: give it more --steps, or another --seed"
-                    .to_owned(),
-            ),
-            (true, false) => Some(
-                "the robot never sensed the goal: learn longer, --set quiet_looks=600".to_owned(),
-            ),
+            (false, _) => Some("the robot does not know where it is on it".to_owned()),
+            (true, false) => Some("the robot never sensed the goal".to_owned()),
             (true, true) => None,
         }
     }

@@ -126,15 +126,14 @@ impl Mapper for Mslst {
 
     fn doubt(&self) -> Option<String> {
         let graph = &self.learned()?.graph;
-        let why = "learn longer, --set graph_actions=20000";
         if !graph.ids().any(|id| graph.is_destination(id)) {
-            return Some(format!("the robot never came to the destination: {why}"));
+            return Some("the robot never came to the destination".to_owned());
         }
         let lost = graph.ids().filter(|id| graph.distance(*id).is_none());
         let lost = lost.count();
         (2 * lost > graph.len()).then(|| {
             format!(
-                "no way to the destination is known from {lost} of {} nodes: {why}",
+                "no way to the destination is known from {lost} of {} nodes",
                 graph.len()
             )
         })

@@ -239,8 +239,7 @@ fn score(arguments: &Score, out: &mut dyn Write) -> Result {
     }
     let Some(score) = scored else {
         return Err(Failure::Failed(anyhow!(
-            "the map of {nodes} nodes has one node for both goals, so it cannot be turned and has no score; give another --seed, or a smaller \
-             --growth-period"
+            "the map of {nodes} nodes has one node for both goals, so it cannot be turned and has no score"
         )));
     };
     if !arguments.json {

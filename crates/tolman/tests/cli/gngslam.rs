@@ -87,7 +87,7 @@ fn a_map_that_is_unfinished_or_of_another_world_is_told_of() {
     fs::write(folder.join("room.json"), ROOM).unwrap();
     fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
     let few = [&LEARN[..], &["--steps", "60"]].concat();
-    tolman_in(&folder, &few).failed(1, &["map.json is wrong or unfinished", "--steps"]);
+    tolman_in(&folder, &few).failed(1, &["map.json is wrong or unfinished", "ran out of time"]);
     let check = ["map", "check", "map.json", "--world", "room.json"];
     tolman_in(&folder, &check).refused(1, &["wrong or unfinished"]);
     let other = ["map", "check", "map.json", "--maze", "corridor.maze"];

@@ -123,21 +123,17 @@ impl BetterExplorer {
     pub fn why_doubtful(&self) -> Option<&'static str> {
         match self.plan {
             Plan::Finished if self.knew_start && !self.knows_start() => {
-                Some("the start is not on it, though it began there: try another --seed")
+                Some("the start is not on it, though it began there")
             }
             Plan::Finished if self.drove_through_a_wall() => {
-                Some("the robot drove where the map has a wall: try another --seed")
+                Some("the robot drove where the map has a wall")
             }
-            Plan::Finished if self.corridors().is_torn() => Some(
-                "two of its places are nearer than half a corridor's width: try another --seed",
-            ),
+            Plan::Finished if self.corridors().is_torn() => {
+                Some("two of its places are nearer than half a corridor's width")
+            }
             Plan::Finished => self.map.chart().doubt(),
-            Plan::Return(_) | Plan::Strayed => {
-                Some("it did not come back to where its map begins: try another --seed")
-            }
-            Plan::Go(_) | Plan::Stuck => {
-                Some("a gap is left that it did not come to: try another --seed")
-            }
+            Plan::Return(_) | Plan::Strayed => Some("it did not come back to where its map begins"),
+            Plan::Go(_) | Plan::Stuck => Some("a gap is left that it did not come to"),
         }
     }
 

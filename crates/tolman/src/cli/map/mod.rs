@@ -140,7 +140,7 @@ fn plan(app: &App, arguments: &Plan, out: &mut dyn Write) -> Result {
     let plan = plan.unboxed().or_bad_input()?;
     let Some(lines) = plan else {
         return Err(Failure::Failed(anyhow!(
-            "no way is known on the map in {}; learn longer",
+            "no way is known on the map in {}",
             arguments.file.display()
         )));
     };
