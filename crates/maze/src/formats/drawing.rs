@@ -23,6 +23,14 @@ const fn is_post(c: char) -> bool {
     matches!(c, 'o' | '+')
 }
 
+/// Returns whether a wall begins with this text, which has no blanks before it.
+fn begins_wall(text: &str) -> bool {
+    text.starts_with(['|', '-'])
+        || text
+            .strip_prefix(is_post)
+            .is_some_and(|rest| rest.starts_with('-'))
+}
+
 /// Returns the column of characters of the post to the west of a cell's column.
 const fn post(column: u16) -> usize {
     column as usize * PITCH
@@ -51,9 +59,14 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
     let grid = Grid::new(side(width)?, side(rows.len() / 2)?);
     if rows.len() < 3 || rows.len().is_multiple_of(2) {
         let last = rows.last().unwrap_or(first);
-        return Err(last
-            .line
-            .fault(0, MazeFault::Unfinished { lines: rows.len() }));
+        return Err(match lines.clone().next().filter(|line| !line.is_blank()) {
+            // No remark stands within a row.
+            Some(line) => {
+                let indent = first.indent.min(line.text.len());
+                Row { line, indent }.unexpected(0, "a post, `|` or a blank at the west border")
+            }
+            None => (last.line).fault(0, MazeFault::Unfinished { lines: rows.len() }),
+        });
     }
 
     let mut reader = Reader {
@@ -250,8 +263,7 @@ fn width(first: &Row<'_>) -> usize {
 
 const POST: &str = "a post, `o` or `+`, at every corner of a cell";
 
-const HORIZONTAL: &str =
-    "`---` or three blanks between two posts, since a cell is three characters wide";
+const HORIZONTAL: &str = "`---` or three blanks between two posts, since a cell is three characters wide, as in `+---+---+`";
 
 impl Row<'_> {
     /// Returns the character at `offset`; blanks beyond the end of the line.
@@ -332,11 +344,12 @@ impl Row<'_> {
         Err(self.fault(found, MazeFault::TooShort { found, width }))
     }
 
-    /// Checks that only remarks stand beyond the east border: walls there belong to a wider maze.
+    /// Checks that only remarks stand beyond the east border. What begins as a wall belongs to a
+    /// wider maze.
     fn nothing_beyond(&self, width: u16) -> Result<(), MazeError> {
         let offset = post(width) + 1;
         match self.line.text.get(self.indent + offset..) {
-            Some(rest) if rest.contains('|') || rest.contains("--") => {
+            Some(rest) if begins_wall(rest.trim_start()) => {
                 Err(self.fault(offset, MazeFault::BeyondBorder { width }))
             }
             _ => Ok(()),

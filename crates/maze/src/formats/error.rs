@@ -36,7 +36,7 @@ pub enum MazeFault {
     #[error(
         "found `{found}`, with which no maze file begins: expected a drawing of posts `o` or `+` and \
          walls `---` and `|`, a `key = value` line before one, a size above rows of numbers, or \
-         lines `X Y N E S W`"
+         lines `X Y N E S W`; redraw box characters, blocks and grids so"
     )]
     UnknownFormat {
         /// Beginning of the line.
@@ -57,7 +57,8 @@ pub enum MazeFault {
     /// A line that ends before the east border.
     #[error(
         "the line is too short, {found} characters: the first line of the drawing has posts for {width} \
-         columns, so expected {} (one every 4 characters, and the last)",
+         columns, so expected {} (one every 4 characters, and the last): draw a rectangle, and wall off the \
+         rest",
         width * 4 + 1
     )]
     TooShort {
@@ -69,7 +70,7 @@ pub enum MazeFault {
     /// A line extends beyond the east border.
     #[error(
         "the drawing goes on beyond the east border: its first line has posts for {width} columns \
-         (one every 4 characters); make all lines {} characters long", width * 4 + 1
+         (one every 4 characters); draw a rectangle, and wall off the rest"
     )]
     BeyondBorder {
         /// Number of columns that the drawing's first line has posts for.
@@ -77,7 +78,7 @@ pub enum MazeFault {
     },
     /// A drawing without its last line.
     #[error(
-        "the drawing stops after {lines} lines, in the middle of a row: n rows of cells take 2n + 1 \
+        "the drawing stops in the middle of a row, with its line {lines}: n rows of cells take 2n + 1 \
          lines, the last of them the south border"
     )]
     Unfinished {
@@ -160,7 +161,8 @@ pub enum MazeFault {
     /// There is a header and no drawing below it.
     #[error(
         "the drawing is missing: draw the maze below the header, with posts and walls as in `+---+` \
-         and `|`; lines that start with `#` are comments, not walls"
+         and `|`; lines that start with `#` are comments: redraw a maze of blocks so that its walls are lines \
+         between cells"
     )]
     NoDrawing,
     /// A line before the drawing that is not `key = value`.

@@ -21,7 +21,7 @@ fn texts_that_are_no_maze() {
         "\n  <!DOCTYPE html>",
         "line 2, column 3: found `<!DOCTYPE html>`, with which no maze file begins: expected a drawing \
          of posts `o` or `+` and walls `---` and `|`, a `key = value` line before one, a size above \
-         rows of numbers, or lines `X Y N E S W`",
+         rows of numbers, or lines `X Y N E S W`; redraw box characters, blocks and grids so",
     );
 }
 
@@ -38,7 +38,7 @@ fn drawings() {
     check(
         "o---o---o\n| S   G\no---o---o\n",
         "line 2, column 8: the line is too short, 7 characters: the first line of the drawing has posts \
-         for 2 columns, so expected 9 (one every 4 characters, and the last)",
+         for 2 columns, so expected 9 (one every 4 characters, and the last): draw a rectangle, and wall off the rest",
     );
     check(
         "o---o---o\n  S   G |\no---o---o\n",
@@ -55,17 +55,17 @@ fn drawings() {
     );
     check(
         "o---o---o\n| S   G |\n",
-        "line 2, column 1: the drawing stops after 2 lines, in the middle of a row: n rows of cells \
+        "line 2, column 1: the drawing stops in the middle of a row, with its line 2: n rows of cells \
          take 2n + 1 lines, the last of them the south border",
     );
     check(
         "o---o---o\n",
-        "line 1, column 1: the drawing stops after 1 lines, in the middle of a row: n rows of cells \
+        "line 1, column 1: the drawing stops in the middle of a row, with its line 1: n rows of cells \
          take 2n + 1 lines, the last of them the south border",
     );
     check(
         "o---o---o\n| S   G |\n\no---o---o\n",
-        "line 2, column 1: the drawing stops after 2 lines, in the middle of a row: n rows of cells \
+        "line 2, column 1: the drawing stops in the middle of a row, with its line 2: n rows of cells \
          take 2n + 1 lines, the last of them the south border",
     );
     check(
@@ -83,7 +83,7 @@ fn drawings() {
     check(
         "o---o---o\n| S   G |\no-- o---o\n",
         "line 3, column 4: found ' ': expected `---` or three blanks between two posts, since a cell \
-         is three characters wide",
+         is three characters wide, as in `+---+---+`",
     );
     check(
         "o---o---o\n| S   S |\no---o---o\n",
@@ -98,19 +98,25 @@ fn drawings() {
         "line 3, column 1: found '|': expected a post, `o` or `+`, at every corner of a cell",
     );
     check(
+        "o---o---o\n! S   G !\no---o---o\n",
+        "line 2, column 1: found '!': expected a post, `|` or a blank at the west border",
+    );
+    let remark = "o---o---o\n| S   G |   north | pit -- a note\no---o---o\n";
+    assert!(read(remark).is_ok());
+    check(
         "o---o---o\n| S   G |   |\no---o---o\n",
         "line 2, column 10: the drawing goes on beyond the east border: its first line has posts for 2 \
-         columns (one every 4 characters); make all lines 9 characters long",
+         columns (one every 4 characters); draw a rectangle, and wall off the rest",
     );
     check(
         "o---o---o\n| S   G |\no---o---o---o\n",
         "line 3, column 10: the drawing goes on beyond the east border: its first line has posts for 2 \
-         columns (one every 4 characters); make all lines 9 characters long",
+         columns (one every 4 characters); draw a rectangle, and wall off the rest",
     );
     check(
         "o---o---o---o\n| S   G |\no---o---o---o\n",
         "line 2, column 10: the line is too short, 9 characters: the first line of the drawing has posts \
-         for 3 columns, so expected 13 (one every 4 characters, and the last)",
+         for 3 columns, so expected 13 (one every 4 characters, and the last): draw a rectangle, and wall off the rest",
     );
     check(
         "o---o---o\n| S   G  \no---o---o\n",
@@ -119,17 +125,17 @@ fn drawings() {
     check(
         "+===+===+\n| S   G |\n+===+===+\n",
         "line 1, column 2: found '=': expected `---` or three blanks between two posts, since a \
-         cell is three characters wide",
+         cell is three characters wide, as in `+---+---+`",
     );
     check(
         "+-+-+\n|S G|\n+-+-+\n",
         "line 1, column 3: found '+': expected `---` or three blanks between two posts, since a \
-         cell is three characters wide",
+         cell is three characters wide, as in `+---+---+`",
     );
     check(
         "# Blocks\n#########\n#S     G#\n#########",
         "line 4, column 1: the drawing is missing: draw the maze below the header, with posts and walls \
-         as in `+---+` and `|`; lines that start with `#` are comments, not walls",
+         as in `+---+` and `|`; lines that start with `#` are comments: redraw a maze of blocks so that its walls are lines between cells",
     );
     check(
         "# No goal\n\n  +---+\n  | S |\n  +---+\n",
@@ -138,7 +144,7 @@ fn drawings() {
     check(
         "o--o--o\n|S  G |\no--o--o\n",
         "line 1, column 4: found 'o': expected `---` or three blanks between two posts, since a cell \
-         is three characters wide",
+         is three characters wide, as in `+---+---+`",
     );
     check(
         &format!("{}o\n", "o---".repeat(1025)),
@@ -385,7 +391,7 @@ fn headers() {
     check(
         "name = J\n",
         "line 2, column 1: the drawing is missing: draw the maze below the header, with posts and \
-         walls as in `+---+` and `|`; lines that start with `#` are comments, not walls",
+         walls as in `+---+` and `|`; lines that start with `#` are comments: redraw a maze of blocks so that its walls are lines between cells",
     );
     check(
         "name = J\n+---+\n| G |\n+---+\nstart = 0 0\n",
