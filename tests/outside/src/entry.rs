@@ -1,6 +1,6 @@
 //! The entry of the system: how it is put on any laser robot, and its map's file.
 
-use tolman::registry::{MapText, Setup, SystemEntry, SystemFacts};
+use tolman::registry::{DrivesBy, MapText, Setup, SystemEntry, SystemFacts};
 use tolman_arena::{BoxError, Outing, Sent};
 use tolman_systems::{Actor, MapFiles};
 
@@ -13,7 +13,7 @@ pub const FILES: MapFiles = MapFiles { system: "paces" };
 impl SystemEntry for PacesEntry {
     fn facts(&self) -> SystemFacts {
         SystemFacts {
-            drives: true,
+            drives: DrivesBy::AnyMap,
             // Its map has paces, and no places.
             claims: false,
             ..SystemFacts::new(FILES.system)

@@ -18,9 +18,7 @@ use super::true_graph::TrueGraph;
 use super::wanderers::Sender;
 use super::whereabouts::{Squares, believed};
 use crate::course::{Course, Terrain, pick};
-use crate::registry::{
-    Registry, RobotEntry, RobotKind, Schooling, Settings, Setup, Start, SystemEntry,
-};
+use crate::registry::{Registry, RobotEntry, RobotKind, Schooling, Settings, Setup, SystemEntry};
 use crate::run::{Stopwatch, TaskEnd};
 use crate::{BoxError, Outing};
 
@@ -339,7 +337,7 @@ impl Contest<'_> {
             world: self.name,
             terrain: &terrain,
             seed: self.seed,
-            start: Some(Start::Marked),
+            start: None,
             steps: Some(NO_STEPS),
             robot: self.robot(),
             from: None,

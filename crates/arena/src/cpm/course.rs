@@ -18,27 +18,29 @@ const WIDTHS: (f64, f64) = (0.20, 0.30);
 /// # Errors
 /// [`CourseError::NoStart`], [`CourseError::Unseen`].
 pub fn epuck_course(name: &str, file: MazeFile) -> Result<Course, CourseError> {
-    let width = seen(file.corridor_width)?;
-    let course = Course::new(file.name.as_deref().unwrap_or(name), file.maze, width)?;
+    let course = epuck_maze(name, file)?;
     course.start()?;
     Ok(course)
 }
 
-/// Returns a maze or a free world as a course from its start for the e-puck. `name` is used if it
-/// has no name itself.
+fn epuck_maze(name: &str, file: MazeFile) -> Result<Course, CourseError> {
+    let width = seen(file.corridor_width)?;
+    Course::new(file.name.as_deref().unwrap_or(name), file.maze, width)
+}
+
+/// Returns a maze or a free world as a course for the e-puck. `name` is used if it has no name
+/// itself.
 ///
 /// # Errors
-/// As [`epuck_course`], and as [`Course::in_free_world`].
+/// [`CourseError::Unseen`], and as [`Course::in_free_world`].
 pub fn epuck_course_on(name: &str, terrain: &Terrain) -> Result<Course, CourseError> {
     match terrain {
-        Terrain::Maze(file) => epuck_course(name, file.clone()),
+        Terrain::Maze(file) => epuck_maze(name, file.clone()),
         Terrain::Free(free) => {
             let radius = BODY_RADIUS;
             let width = seen(free.corridor_width)?;
             let world = free.world.clone();
-            let course = Course::in_free_world(name, world, width, &Body::Circle { radius })?;
-            course.start()?;
-            Ok(course)
+            Course::in_free_world(name, world, width, &Body::Circle { radius })
         }
     }
 }

@@ -39,10 +39,13 @@ pub struct SystemFacts {
     pub log_mapper: Option<LogMapper>,
     /// Reason why the system cannot map a log, in a sentence without a full stop.
     pub why_no_log: &'static str,
-    /// Whether it drives to the goal by a map in a file.
-    pub drives: bool,
+    /// Maps by which it drives to the goal.
+    pub drives: DrivesBy,
     /// Whether being done means that it claims its map is that of the whole world.
     pub claims: bool,
+    /// Whether a drive by its map has to arrive before the map counts as learned, for a system that
+    /// cannot judge its map.
+    pub tried: bool,
     /// Rule for the cells that are places of this system. If it treats another cell with two ways
     /// as a place, that cell counts as part of a way.
     pub places: PlaceRule,
@@ -69,8 +72,9 @@ impl SystemFacts {
             baseline: None,
             log_mapper: None,
             why_no_log: "it learns from actions, which a log does not name",
-            drives: false,
+            drives: DrivesBy::OwnMap,
             claims: true,
+            tried: false,
             places: PlaceRule::Landmarks,
             demo: (DemoWorld::Large, 1),
         }
@@ -178,6 +182,17 @@ impl PartialEq for dyn SystemEntry {
 }
 
 impl Eq for dyn SystemEntry {}
+
+/// Maps by which a system drives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DrivesBy {
+    /// The map of a file, or the one that it has just learned.
+    AnyMap,
+    /// Only the map that it has just learned.
+    OwnMap,
+    /// It does not drive by maps.
+    NoMap,
+}
 
 /// World of a demonstration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

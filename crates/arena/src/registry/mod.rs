@@ -16,12 +16,12 @@ mod start;
 mod systems;
 mod view_file;
 
-pub use entry::{DemoWorld, LogMapper, SystemEntry, SystemFacts};
+pub use entry::{DemoWorld, DrivesBy, LogMapper, SystemEntry, SystemFacts};
 pub use learned_map::{LearnedMap, MapText};
 pub use list::{Registry, slug};
 pub use robots::{LaserLike, LaserModel, RobotEntry, RobotKind};
 pub use schooling::Schooling;
-pub use setup::{Settings, Setup, UnknownName};
+pub use setup::{AllSettings, Settings, Setup, UnknownName};
 pub use start::Start;
 pub(crate) use view_file::view_file;
 

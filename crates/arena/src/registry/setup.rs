@@ -1,3 +1,5 @@
+use alloc::collections::BTreeMap;
+
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use thiserror::Error;
@@ -23,7 +25,7 @@ pub struct Setup<'a> {
     pub terrain: &'a Terrain,
     /// Seed of all random numbers: the same seed gives the same result.
     pub seed: u64,
-    /// Start of the robot; `None` for the system's default.
+    /// Start of the robot; `None` for the [usual](Start::usual) one.
     pub start: Option<Start>,
     /// Number of time steps after which the task has failed; `None` for the system's default.
     pub steps: Option<u32>,
@@ -76,27 +78,27 @@ impl Setup<'_> {
         }
     }
 
-    /// Returns the start of the robot on `course`: the one that was given, or else `usual`.
-    /// `random` is called for a random one.
+    /// Returns the start of the robot on `course`: the one that was given, or else the
+    /// [usual](Start::usual) one. `random` is called for a random one.
     ///
     /// # Errors
     /// If the maze marks no start, or no way leads on from there.
     pub fn start(
         &self,
         course: &Course,
-        usual: Start,
         random: impl FnOnce() -> Option<Pose>,
     ) -> Result<Pose, BoxError> {
-        self.start.unwrap_or(usual).on(course, random)
+        let start = self.start.unwrap_or_else(|| Start::usual(course));
+        start.on(course, random)
     }
 
-    /// Returns the start of a robot with this body on `course`: the given one, or a random one.
+    /// Returns the start of a robot with this body on `course`. A random one is not in the middle
+    /// of its cell.
     ///
     /// # Errors
     /// As [`start`](Self::start).
-    pub fn start_anywhere(&self, course: &Course, body: &Body) -> Result<Pose, BoxError> {
-        let random = || Some(random_start(course, body, self.seed));
-        self.start(course, Start::Random, random)
+    pub fn start_off_centre(&self, course: &Course, body: &Body) -> Result<Pose, BoxError> {
+        self.start(course, || Some(random_start(course, body, self.seed)))
     }
 
     /// Returns the robot at `start`, a laser robot that is configured so before the condition
@@ -130,7 +132,7 @@ impl Setup<'_> {
     }
 
     /// Puts the laser robot on the course of the maze, and returns both with the layers that drive
-    /// it. Without a given start, its pose is random.
+    /// it.
     ///
     /// # Errors
     /// If maze, robot or start do not fit.
@@ -140,7 +142,7 @@ impl Setup<'_> {
             radius: config.radius,
         };
         let course = self.course(&body, crate::pioneer::CORRIDOR_WIDTH)?;
-        let start = self.start_anywhere(&course, &body)?;
+        let start = self.start_off_centre(&course, &body)?;
         let stack = layers(&course, &config)?;
         let robot = self.laser_at(&course, start, config)?;
         Ok((course, robot, stack))
@@ -192,6 +194,11 @@ pub struct UnknownName {
     pub known: Vec<String>,
 }
 
+/// Answer to [`Settings::HELP`]: all settings, with their values.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("the settings are: {}", .0.iter().map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>().join(", "))]
+pub struct AllSettings(pub BTreeMap<String, toml::Value>);
+
 /// Settings of a system: a preset and changes to it.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Settings<'a> {
@@ -202,6 +209,25 @@ pub struct Settings<'a> {
 }
 
 impl Settings<'_> {
+    /// Name in place of a setting's that asks for [all settings](AllSettings).
+    pub const HELP: &'static str = "help";
+
+    /// Refuses presets and settings, for a system that has none.
+    ///
+    /// # Errors
+    /// If one is given.
+    pub fn none(&self) -> Result<(), BoxError> {
+        match (self.preset, self.set) {
+            (Some(preset), _) => {
+                Err(format!("there are no presets: leave --preset {preset} out").into())
+            }
+            (None, [(name, _), ..]) => {
+                Err(format!("there are no settings: leave --set {name} out").into())
+            }
+            (None, []) => Ok(()),
+        }
+    }
+
     /// Returns the value of the one of `presets` that is chosen, or of the first.
     ///
     /// # Errors
@@ -232,6 +258,11 @@ impl Settings<'_> {
     pub fn over<C: Serialize + DeserializeOwned>(&self, preset: &C) -> Result<C, BoxError> {
         let mut table = toml::Table::try_from(preset)?;
         for (path, value) in self.set {
+            if path == Self::HELP {
+                let mut all = BTreeMap::new();
+                list(&table, "", &mut all);
+                return Err(AllSettings(all).into());
+            }
             set(&mut table, path, value)?;
         }
         table.try_into().map_err(|error: toml::de::Error| {
@@ -258,6 +289,17 @@ fn in_plain_words(message: &str) -> String {
         other => other,
     };
     format!("{before}expected {wanted}")
+}
+
+/// Adds the fields of a table to `all`, each by its path, which begins with `before`.
+fn list(table: &toml::Table, before: &str, all: &mut BTreeMap<String, toml::Value>) {
+    for (name, value) in table {
+        let path = format!("{before}{name}");
+        match value {
+            toml::Value::Table(inner) => list(inner, &format!("{path}."), all),
+            value => drop(all.insert(path, value.clone())),
+        }
+    }
 }
 
 /// Sets the field at `path` of a table to `value`.

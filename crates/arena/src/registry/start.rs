@@ -20,6 +20,16 @@ pub enum Start {
 }
 
 impl Start {
+    /// Returns the start of a robot that is given none: the one that the course marks, or else a
+    /// random one.
+    #[must_use]
+    pub fn usual(course: &Course) -> Self {
+        match course.start() {
+            Ok(_) => Self::Marked,
+            Err(_) => Self::Random,
+        }
+    }
+
     /// Returns the start pose on `course`. `random` is called for a random one.
     ///
     /// # Errors

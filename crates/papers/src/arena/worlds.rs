@@ -34,6 +34,9 @@ pub enum ArenaWorld {
         name: String,
         /// Maze that was read.
         maze: Maze,
+        /// Width of its corridors by the file, m. The arena does not use it: its corridors are as
+        /// wide as a robot needs.
+        width: Option<f64>,
     },
 }
 
@@ -82,7 +85,7 @@ impl ArenaWorld {
     /// Returns the mazes of files, and of all files in folders.
     ///
     /// # Errors
-    /// If one cannot be read, or marks no start.
+    /// If one cannot be read.
     pub fn of_files(paths: &[PathBuf]) -> Result<Vec<Self>, BoxError> {
         let mut worlds: Vec<Self> = Vec::new();
         for path in paths {
@@ -100,15 +103,12 @@ impl ArenaWorld {
 
     fn of_file(path: &Path, before: &[Self]) -> Result<Self, BoxError> {
         let file = maze_file::read(path)?;
-        if file.maze.start().is_none() {
-            let why = "it marks no start: mark a cell with S";
-            return Err(maze_file::in_file(path, why));
-        }
         let name = file.name.clone().unwrap_or_else(|| maze_file::stem(path));
         let is_taken = |name: &str| name == "all" || before.iter().any(|one| one.name() == name);
         Ok(Self::File {
             name: maze_file::told_apart(&name, is_taken),
             maze: file.maze,
+            width: file.corridor_width,
         })
     }
 
@@ -148,7 +148,7 @@ impl ArenaWorld {
                 let maze = (family.draw)(family.size(size), rng)?;
                 (format!("{} {number}", family.name), maze)
             }
-            Self::File { name, maze } => (name.clone(), maze.clone()),
+            Self::File { name, maze, .. } => (name.clone(), maze.clone()),
         };
         Ok(DrawnWorld {
             name,
@@ -165,7 +165,7 @@ impl ArenaWorld {
                 let sizes = sizes.map(|(width, height)| format!("{width}x{height}"));
                 format!("{name}: {}", sizes.join(", ")).into()
             }
-            Self::File { name, maze } => format!("{name}\n{maze}").into(),
+            Self::File { name, maze, .. } => format!("{name}\n{maze}").into(),
         }
     }
 }

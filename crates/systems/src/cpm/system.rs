@@ -496,9 +496,7 @@ impl Mapper for Cpm {
 #[must_use]
 pub fn doubt(map: &CpMap) -> Option<String> {
     let open = map.open_ports().count();
-    (open > 0).then(|| {
-        format!("{open} of its ports are unexplored: give it more --steps, or another --seed")
-    })
+    (open > 0).then(|| format!("{open} of its ports are unexplored"))
 }
 
 /// Returns a map as places and links; a fragment leads both ways. O(map).
@@ -536,6 +534,10 @@ impl<R: CpmRobot> System<R> for Cpm {
             (Stance::AtPlace(resting), Task::Reach(goal)) => self.reach(robot, *resting, goal),
             (lost, task) => {
                 self.standing = lost;
+                let mut known = self.known.iter().map(|map| map.fragments().len());
+                if !self.known.is_empty() && known.all(|ways| ways == 0) {
+                    return Ok(Standing::gave_up("the map has no ways to drive"));
+                }
                 if self.layer.is_none() && task != Task::Localize {
                     return self.begin(robot);
                 }

@@ -16,6 +16,7 @@ use tolman_arena::contest::{
 use tolman_arena::registry::{Registry, RobotEntry, Schooling, SystemEntry, slug};
 use tolman_papers::arena::{ArenaWorld, DrawnWorld};
 
+use super::failure::note;
 use super::{App, OrBadInput, Result, Unboxed, unknown};
 
 /// A system or baseline of the arena.
@@ -219,8 +220,20 @@ impl Arguments {
     fn kinds(&self, app: &App) -> Result<Vec<ArenaWorld>> {
         Ok(match (self.mazes.is_empty(), self.family.as_str()) {
             (false, _) => {
-                let files = ArenaWorld::of_files(&self.mazes);
-                files.unboxed().or_bad_input()?
+                let files = ArenaWorld::of_files(&self.mazes).unboxed().or_bad_input()?;
+                for file in &files {
+                    if let ArenaWorld::File {
+                        name,
+                        width: Some(width),
+                        ..
+                    } = file
+                    {
+                        note(&format!(
+                            "corridor_width = {width} of {name} is ignored: each robot gets corridors of its own width"
+                        ));
+                    }
+                }
+                files
             }
             (true, "all") => ArenaWorld::families(),
             (true, name) => vec![ArenaWorld::Family(*app.family(name)?)],
@@ -316,6 +329,7 @@ fn table(rows: &[TableRow<'_>], robot: Option<RobotEntry>, out: &mut dyn Write) 
         let homes = || records.iter().flat_map(|r| &r.homes);
         let came = homes().filter(|home| home.over_shortest.is_some());
         let learns = contestant.learns();
+        let has_maps = judged().next().is_some();
         writeln!(
             out,
             "{:18} {:13} {:>6} {:>9} {:>5} {:>7} {:>6} {:>7} {:>13}",
@@ -323,9 +337,9 @@ fn table(rows: &[TableRow<'_>], robot: Option<RobotEntry>, out: &mut dyn Write) 
             carrier(*contestant, robot).title,
             records.len(),
             records.iter().filter(|r| r.abstained.is_some()).count(),
-            or_dash(learns.then(|| judged().filter(|judged| judged.is_right).count())),
-            or_dash(learns.then(|| judged().filter(|judged| judged.is_right_of_visited).count())),
-            or_dash(learns.then(|| format!("{:.2}", recall / records.len() as f64))),
+            or_dash(has_maps.then(|| judged().filter(|judged| judged.is_right).count())),
+            or_dash(has_maps.then(|| judged().filter(|judged| judged.is_right_of_visited).count())),
+            or_dash(has_maps.then(|| format!("{:.2}", recall / records.len() as f64))),
             or_dash((learns || found().next().is_some()).then(|| format!(
                 "{}/{}",
                 located.count(),

@@ -5,12 +5,13 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use tolman_arena::contest::{Condition, Contest, LocateOutcome, Moment, ShowRecord};
-use tolman_arena::registry::{DemoWorld, Schooling};
+use tolman_arena::registry::{DemoWorld, DrivesBy, Schooling};
 use tolman_film::Film;
 use tolman_maze::{Maze, MazeFile};
 use tolman_replay::{Chapter, Mark, Marks, Replay, moving_picture};
 
 use super::live::{Live, Scene};
+use super::looks::LIVE;
 use super::replay_file::{self, Overwrite};
 use super::{App, Failure, OrBadInput, Result, file, maze};
 
@@ -19,7 +20,7 @@ use super::{App, Failure, OrBadInput, Result, file, maze};
 #[derive(clap::Args)]
 #[command(after_help = "\
 `tolman systems` lists the systems that learn. Exit code 1: the robot did not
-find out where it is, or did not reach the goal; try another --seed.
+find out where it is, or did not reach the goal, though its system can drive.
 
 The file is tolman-demo.html in the current folder, or tolman-demo-2.html … if that
 exists.
@@ -50,14 +51,12 @@ pub(super) struct Arguments {
     /// Also write an animated SVG
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
-    /// Show the run on the terminal with the map and the believed pose. Space pauses, → steps, +
-    /// and - change the speed, q closes the view
-    #[arg(long)]
+    #[arg(long, help = LIVE)]
     live: bool,
 }
 
 /// Maze of the demo. It is part of the program, so that the demo runs in any folder.
-const MAZE: &str = include_str!("../../mazes/demo.maze");
+pub(super) const MAZE: &str = include_str!("../../mazes/demo.maze");
 /// Maze for systems that map a large maze slowly or do not localize in it.
 const SMALL: &str = include_str!("../../mazes/star.maze");
 
@@ -98,9 +97,9 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     replay_file::write(&path, replay, overwrite)?;
     tell(&contest, &record, out)?;
     replay_file::tell(&path, out)?;
-    match failure(&record) {
+    match failure(&record).filter(|_| can_drive(&contest)) {
         None => Ok(()),
-        Some(why) => Err(Failure::Failed(anyhow!("{why}; try another --seed"))),
+        Some(why) => Err(Failure::Failed(anyhow!(why))),
     }
 }
 
@@ -222,9 +221,18 @@ fn tell(contest: &Contest<'_>, record: &ShowRecord, out: &mut dyn Write) -> Resu
             out,
             "It drove to the goal in {home:.1} m; the shortest way is {shortest:.1} m."
         )?,
+        None if !can_drive(contest) => writeln!(
+            out,
+            "It does not drive by its map, so it did not go to the goal."
+        )?,
         None => writeln!(out, "It did not come to the goal.")?,
     }
     Ok(())
+}
+
+/// Returns whether the system of a contest drives by maps at all.
+fn can_drive(contest: &Contest<'_>) -> bool {
+    contest.contestant.facts().drives != DrivesBy::NoMap
 }
 
 /// Returns why the demo did not show all it should, or `None` if it did.

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use anyhow::{Context, anyhow};
 use serde_json::json;
+use tolman_geom::Point;
 
 use super::looks::Looks;
 use super::map::map_text;
@@ -12,7 +13,8 @@ use super::send::{ARRIVE, Pursued, check_origin, send};
 use super::sent_out::SentOut;
 use super::unfinished::{GoingOn, checksum};
 use super::{App, Failure, OrBadInput, Result, Unboxed};
-use tolman_arena::registry::{MapText, Schooling};
+use tolman_arena::Outing;
+use tolman_arena::registry::{MapText, Schooling, Start};
 
 /// Sends a robot to the goal of a maze or a world by a learned map; exits 1 if it does not arrive
 ///
@@ -68,7 +70,8 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     let schooling = Schooling::default();
     let learner = &maps[0].origin.robot;
     let robot = arguments.sent_out.robot(app, system, learner)?;
-    let setup = arguments.sent_out.setup(&terrain, robot, &schooling);
+    let mut setup = arguments.sent_out.setup(&terrain, robot, &schooling);
+    setup.start = setup.start.or(Some(Start::Random));
     let context = || {
         let context = format!("{} cannot drive in {}", system.name(), setup.world);
         let mut origins = maps.iter().map(|map| &map.origin.world);
@@ -94,6 +97,13 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
         .with("the checksum of the maps", Some(checksum(&texts)))
         .with("--anyway", arguments.anyway.then_some("given"));
     let keeper = arguments.going_on.keeper(call)?;
+    if !arguments.looks.json {
+        let how = match setup.start {
+            Some(Start::Random) => "put down at random",
+            _ => "put down",
+        };
+        writeln!(out, "{} is {how}, {}", system.name(), place(&*outing))?;
+    }
     let Pursued {
         ended,
         told,
@@ -131,8 +141,21 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     match has_arrived {
         true => Ok(()),
         false => Err(Failure::Failed(anyhow!(
-            "{told}: the robot is not at the goal of {}; give it more --steps, another --seed, or learn the map again",
+            "{told}: the robot is not at the goal of {}",
             setup.world
         ))),
+    }
+}
+
+/// Returns the cell of a maze in which a robot is, or its position in a world, in words.
+fn place(outing: &dyn Outing) -> String {
+    let at = outing
+        .path()
+        .last()
+        .map_or_else(Point::origin, |pose| pose.position);
+    let course = outing.course();
+    match course.world.cell_at(at).filter(|_| !course.is_free()) {
+        Some(cell) => format!("in cell {cell}"),
+        None => format!("at ({:.2}, {:.2}) m", at.x, at.y),
     }
 }

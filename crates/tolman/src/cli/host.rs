@@ -16,10 +16,10 @@ use tolman_sim::robots::Epuck;
 use super::ground::Ground;
 use super::looks::Looks;
 use super::send::{ARRIVE, Pursued, send};
-use super::sent_out::setup_of;
+use super::sent_out::{StartOption, setup_of};
 use super::unfinished::{Call, Keeper, Saving};
 use super::{App, Failure, OrBadInput, Result, Unboxed, interrupt, keep};
-use tolman_arena::registry::{RobotEntry, RobotKind, Schooling, Setup, Start, slug};
+use tolman_arena::registry::{RobotEntry, RobotKind, Schooling, Setup, slug};
 
 /// Lets your program, in any language, drive a simulated robot to the goal, and scores it; exits 1
 /// if the robot does not arrive
@@ -52,11 +52,8 @@ pub(super) struct Arguments {
     /// Robot to drive: laser-pioneer or e-puck
     #[arg(long, value_name = "NAME")]
     robot: Option<String>,
-    /// Where the robot starts: random, marked (the maze's start), X,Y or X,Y,DEG. X and Y are in
-    /// metres from the south-west corner of a maze, or in a world's own frame; DEG in degrees,
-    /// counter-clockwise from east
-    #[arg(long, value_name = "WHERE", allow_hyphen_values = true)]
-    start: Option<Start>,
+    #[command(flatten)]
+    start: StartOption,
     /// Stop after this many time steps
     #[arg(long, value_name = "LIMIT", default_value_t = 20_000, value_parser = clap::value_parser!(u32).range(1..))]
     steps: u32,
@@ -100,7 +97,7 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     };
     let schooling = Schooling::default();
     let setup = Setup {
-        start: arguments.start,
+        start: arguments.start.start,
         steps: Some(arguments.steps),
         ..setup_of(&world, robot, &schooling, arguments.seed)
     };
@@ -158,7 +155,7 @@ impl Arguments {
         launch: &Launch<'_>,
     ) -> Result<Box<dyn Outing>, Error> {
         let course = setup.terrain.course(setup.world, model.body())?;
-        let start = setup.start_anywhere(&course, model.body()).unboxed()?;
+        let start = setup.start_off_centre(&course, model.body()).unboxed()?;
         let robot = course.robot_at(start, model, setup.seed)?;
         let facts = RobotFacts::of(&robot);
         let hello = Hello {

@@ -1,5 +1,7 @@
 //! `tolman learn`: a system learns a map of a maze.
 
+use core::slice;
+use core::sync::atomic::Ordering;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -7,7 +9,8 @@ use anyhow::{Context, anyhow};
 use serde_json::json;
 use tolman_arena::Outing;
 use tolman_arena::contest::{Claim, Evidence, TrueVisits};
-use tolman_robot::Task;
+use tolman_arena::run::{self, TaskEnd};
+use tolman_robot::{Landmark, Standing, Task};
 
 use super::looks::Looks;
 use super::map::{of_text, text};
@@ -15,14 +18,16 @@ use super::send::{ARRIVE, Pursued, check_origin, send};
 use super::sent_out::SentOut;
 use super::unfinished::{Former, FormerMap, Keeper};
 use super::words::words;
-use super::{App, Failure, OrBadInput, Result, Unboxed, file};
-use tolman_arena::registry::{LearnedMap, MapText, Schooling, SystemEntry};
+use super::{App, Failure, OrBadInput, Result, Unboxed, file, interrupt};
+use tolman_arena::registry::{
+    DrivesBy, LearnedMap, MapText, Schooling, Settings, Setup, Start, SystemEntry,
+};
 
 /// Lets a system learn a map of a maze or a world, and writes the map to a file
 #[derive(clap::Args)]
 #[command(after_help = "\
 Exit code 1: no map was learned, or the map that was written is known to be wrong or unfinished.
-`tolman systems` lists systems, presets and robots. The error about an unknown --set lists the known ones.
+`tolman systems` lists systems, presets and robots, `tolman systems NAME` also the settings for --set.
 
 Ctrl-C writes the map so far, and saves the run beside it. --from FILE.unfinished continues that run. The map is
 then the same, bit for bit, as without the interruption.
@@ -175,7 +180,11 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     };
     let map = of_text(&arguments.out, &text)?;
     let map = system.map(&map).unboxed()?;
-    file::write(&arguments.out, text)?;
+    file::write(&arguments.out, &text)?;
+    let own = match system.facts().tried && task == Task::Explore && own.is_none() {
+        true => tried(system, &of_text(&arguments.out, &text)?, &setup)?,
+        false => own,
+    };
     let is_judged = task == Task::Explore && is_known;
     let verdict = Verdict::of(system, &*outing, &*map, is_judged.then_some(&truth), own);
     let json = || {
@@ -196,6 +205,10 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
         for line in map.lines().iter().take(MOST_LINES) {
             writeln!(out, "{line}")?;
         }
+        if system.facts().drives != DrivesBy::AnyMap {
+            let name = system.name();
+            writeln!(out, "{name} does not drive by a map from a file")?;
+        }
         match (&verdict.judged, &verdict.complaint) {
             (Some(Some(found)), None) => writeln!(out, "as a map of places: {found}"),
             _ => Ok(()),
@@ -208,6 +221,45 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
             arguments.out.display()
         ))),
     }
+}
+
+/// Sends a robot from a random place to the goal by a learned map, and returns why it does not
+/// arrive; `None` if it does.
+///
+/// # Errors
+/// If the drive fails, or is interrupted.
+fn tried(system: &dyn SystemEntry, map: &MapText, setup: &Setup<'_>) -> Result<Option<String>> {
+    let setup = Setup {
+        start: Some(Start::Random),
+        steps: None,
+        from: None,
+        settings: Settings::default(),
+        ..setup.clone()
+    };
+    let stop = interrupt::flag()?;
+    let mut outing = system.driver(slice::from_ref(map), &setup).unboxed()?;
+    let ended = run::until_done(&mut *outing, |outing| match stop.load(Ordering::Relaxed) {
+        true => Ok(Standing::gave_up("interrupted")),
+        false => outing.act(ARRIVE),
+    });
+    let ended = ended.unboxed()?;
+    if stop.load(Ordering::Relaxed) {
+        return Err(Failure::Interrupted(anyhow!(
+            "interrupted while a drive by the map in {} was tried",
+            map.name
+        )));
+    }
+    let has_arrived = ended.end == TaskEnd::Done && outing.landmark() == Some(Landmark::Goal);
+    Ok((!has_arrived).then(|| {
+        let why = match ended.end.why() {
+            "" => String::new(),
+            why => format!(": {why}"),
+        };
+        let steps = ended.steps;
+        format!(
+            "a drive by it from a random place did not arrive at the goal in {steps} steps{why}"
+        )
+    }))
 }
 
 /// What is known of a learned map.

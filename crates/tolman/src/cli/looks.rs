@@ -8,12 +8,19 @@ use tolman_replay::Replay;
 use super::replay_file::{self, Overwrite};
 use super::{Failure, Result, file};
 
+/// Help of `--live`.
+#[cfg(feature = "live")]
+pub(super) const LIVE: &str = "\
+Show the run on the terminal. Space pauses, → steps, + and - change the speed, q closes the view";
+/// Help of `--live`.
+#[cfg(not(feature = "live"))]
+pub(super) const LIVE: &str = "\
+Show the number of steps and where the robot is, in one line; a build with the feature `live` draws the run";
+
 /// Options for showing and recording a run.
 #[derive(clap::Args)]
 pub(super) struct Looks {
-    /// Show the run on the terminal. Space pauses, → steps, + and - change the speed, q closes the
-    /// view
-    #[arg(long)]
+    #[arg(long, help = LIVE)]
     pub(super) live: bool,
     /// Draw the robot's path over the maze or the world
     #[arg(long, value_name = "FILE")]

@@ -1,9 +1,10 @@
 //! Mice that are sent through one maze or many, shown on their way, and told of.
 
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Error, anyhow};
+use clap::ArgGroup;
 use serde_json::{Value, json};
 use tolman_maze::Maze;
 
@@ -11,6 +12,33 @@ use super::looks::Looks;
 use super::maze::Collection;
 use super::mouse::Way;
 use super::{Failure, Result, maze};
+
+/// Maze file or folder that a mouse is sent through, as MAZE or as --maze.
+#[derive(clap::Args)]
+pub(super) struct MazePath {
+    /// Maze file of any format, or a folder of them
+    #[arg(value_name = "MAZE|DIR")]
+    maze: Option<PathBuf>,
+    /// The same as MAZE
+    #[arg(long = "maze", value_name = "FILE|DIR")]
+    maze_file: Option<PathBuf>,
+}
+
+impl MazePath {
+    /// Returns the path, if one was given.
+    pub(super) fn path(&self) -> Option<&Path> {
+        self.maze.as_deref().or(self.maze_file.as_deref())
+    }
+}
+
+/// Returns the group that requires a maze or the flag `other`, and no two of them.
+pub(super) fn maze_or(other: &'static str) -> ArgGroup {
+    let one = ArgGroup::new("one").args(["maze", "maze_file", other]);
+    one.required(true)
+}
+
+/// Outcome for a mouse whose start is a goal.
+pub(super) const ON_GOAL: &str = "the start is a goal, so the best run has no length";
 
 /// Result of a mouse in a maze.
 pub(super) trait MouseResult: Send {

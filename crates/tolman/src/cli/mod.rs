@@ -83,7 +83,9 @@ Examples:
 
 Exit codes: 0 done as asked; 1 failed: a robot did not arrive, a maze was not solved, no way is known, a closure is
 refuted, or an error; 2 bad input; 3 a table disagrees with the paper (only with `experiment --check`); 130 interrupted.
-Results are written to stdout, progress and errors to stderr.";
+Results are written to stdout, progress and errors to stderr.
+
+A verb that sends robots into one maze takes it as --maze FILE; mouse and race also take it without the flag.";
 
 #[derive(Subcommand)]
 enum Verb {

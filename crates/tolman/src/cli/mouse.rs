@@ -7,7 +7,7 @@ mod walls_known;
 mod way;
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::{Context, Error, anyhow};
 use serde_json::{Value, json};
@@ -20,14 +20,16 @@ use tolman_systems::micromouse::{Movement, Order, Rotation, Searcher, Until};
 
 use super::looks::Looks;
 use super::maze::Collection;
-use super::mice::{MouseResult, send_all};
+use super::mice::{MazePath, MouseResult, ON_GOAL, maze_or, send_all};
 use super::words::words;
 use super::{Failure, OrBadInput, Result, Unboxed, maze};
 pub(super) use way::{Came, PITCH, Way, WayStep, half_cells};
 
 /// Sends a micromouse through mazes: it explores, proves its run, and drives it
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(
+    group(maze_or("mms")),
+    after_help = "\
 The rules are those of \"Plot and Navigate a Virtual Maze\": at most 1000 steps for both runs. A step is a quarter turn or
 none, then up to three cells. The score is a thirtieth of the steps of the first run plus those of the second. The
 floor is the score of a mouse that knows the maze.
@@ -45,13 +47,13 @@ Examples:
   tolman mouse mazes/grid --search certify-plain --worst 3
   tolman mouse mazes/grid/braided-1.txt --until worth
   tolman mouse mazes/grid/perfect-1.txt --replay mouse.html --trace mouse.jsonl
-  tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/small-1.txt")]
+  tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/small-1.txt"
+)]
 pub(super) struct Arguments {
-    /// Maze file of any format, or a folder of them
-    #[arg(value_name = "FILE|DIR", required_unless_present = "mms")]
-    maze: Option<PathBuf>,
+    #[command(flatten)]
+    maze: MazePath,
     /// Speak the protocol of the simulator mms on stdin and stdout
-    #[arg(long, conflicts_with_all = ["maze", "search", "seed", "worst", "jobs", "json", "live", "svg", "trace", "replay"])]
+    #[arg(long, conflicts_with_all = ["search", "seed", "worst", "jobs", "json", "live", "svg", "trace", "replay"])]
     mms: bool,
     /// When the mouse has explored enough [default: proof, with --mms goal]
     #[arg(long, value_parser = words(UNTIL), conflicts_with = "search")]
@@ -103,7 +105,7 @@ struct Tried<'a> {
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     // clap requires one of the two.
-    let Some(path) = arguments.maze.as_ref().filter(|_| !arguments.mms) else {
+    let Some(path) = arguments.maze.path() else {
         return mms::carry_out(arguments.until.unwrap_or(Until::Goal), out);
     };
     let search = arguments.search()?;
@@ -193,6 +195,7 @@ impl MouseResult for Tried<'_> {
     fn outcome(&self) -> String {
         let judgement = &self.judgement;
         match (judgement.run_1, judgement.run_2, judgement.score) {
+            (Some(0), Some(0), _) => format!("{ON_GOAL}: 0 steps, proven"),
             (Some(run_1), Some(run_2), Some(score)) => format!(
                 "{score:.3} = {run_1} / 30 + {run_2}, {:.3} above the floor{}",
                 score - judgement.floor,

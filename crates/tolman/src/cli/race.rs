@@ -16,7 +16,7 @@ use tolman_systems::micromouse::competition::{ExploreError, SpeedRunExploration}
 
 use super::looks::Looks;
 use super::maze::Collection;
-use super::mice::send_all;
+use super::mice::{MazePath, maze_or, send_all};
 use super::mouse::Way;
 use super::words::words;
 use super::{OrBadInput, Result, maze};
@@ -26,7 +26,9 @@ use shown::Shown;
 /// Sends a competition micromouse through mazes: it explores, proves its fast run, and writes its
 /// moves
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(
+    group(maze_or("template")),
+    after_help = "\
 The mouse drives cell by cell and looks at the walls around it. It drives home once it has been at a goal, and no run
 can be faster than the one it knows, whatever the unseen walls are. The fast run has straights, diagonals and slalom
 turns; --mouse sets their speeds. Without it, mazes of more than 16 cells a side are driven as half-size ones. A mouse
@@ -45,17 +47,17 @@ Examples:
   tolman race mazes/grid/braided-2.txt --svg race.svg --replay race.html
   tolman race mazes/grid
   tolman race --template > mine.toml
-  tolman race mazes/grid/braided-2.txt --mouse mine.toml --json")]
+  tolman race mazes/grid/braided-2.txt --mouse mine.toml --json"
+)]
 pub(super) struct Arguments {
-    /// Maze file of any format, or a folder of them
-    #[arg(value_name = "MAZE|DIR", required_unless_present = "template")]
-    maze: Option<PathBuf>,
+    #[command(flatten)]
+    maze: MazePath,
     /// File with the mouse's driving parameters: times, speeds, accelerations, cell size
     #[arg(long, value_name = "PARAMS.toml")]
     mouse: Option<PathBuf>,
     /// Print a file for --mouse that explains every number
     #[arg(long, value_name = "KIND", num_args = 0..=1, default_missing_value = "classic", value_parser = words(KINDS),
-        conflicts_with_all = ["maze", "mouse", "jobs", "json", "live", "svg", "trace", "replay"])]
+        conflicts_with_all = ["mouse", "jobs", "json", "live", "svg", "trace", "replay"])]
     template: Option<Kind>,
     /// Number of mazes at a time, instead of one per core
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
@@ -89,7 +91,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     if let Some(kind) = arguments.template {
         return Ok(out.write_all(params::template(kind.config()).as_bytes())?);
     }
-    let Some(path) = &arguments.maze else {
+    let Some(path) = arguments.maze.path() else {
         return Err(anyhow!("name a maze or a folder of mazes")).or_bad_input();
     };
     let params = Params::read(arguments.mouse.as_deref())?;

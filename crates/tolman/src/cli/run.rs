@@ -19,6 +19,7 @@ use super::bar::Doing;
 use super::ground::{Ground, required};
 use super::live::{Live, Scene, see};
 use super::looks::Looks;
+use super::sent_out::StartOption;
 use super::unfinished::{Done, GoingOn};
 use super::{App, Failure, OrBadInput, Result, Unboxed, interrupt, picture};
 
@@ -28,13 +29,13 @@ use super::{App, Failure, OrBadInput, Result, Unboxed, interrupt, picture};
     group(required()),
     after_help = "\
 The same brain, maze, start and seed make the same run, on any machine. To repeat the run of a line in runs.jsonl,
-give its --seed, and as --steps the step_limit of its world in config.toml.
+give its --seed, --start random, and as --steps the step_limit of its world in config.toml.
 
 Examples:
   tolman run wall-follow --maze mazes/j.maze --seed 7 --svg run.svg
   tolman run wall-follow --maze mazes/large.maze --live
   tolman run wall-follow --maze mazes/large.maze --replay run.html
-  tolman run avoid --maze mazes/grid/braided-2.txt --start marked --steps 20000
+  tolman run avoid --maze mazes/grid/braided-2.txt --steps 20000
   tolman run wall-follow --world mazes/worlds/rooms.json --seed 3
   tolman run wall-follow --world mazes/worlds/hall.yaml --goal 2,0 --seed 2"
 )]
@@ -47,16 +48,8 @@ pub(super) struct Arguments {
     /// Seed of all random numbers of the run: the same seed gives the same run
     #[arg(long, value_name = "N", default_value_t = 1)]
     seed: u64,
-    /// Where the robot starts: random, marked (the maze's start), X,Y or X,Y,DEG. X and Y are in
-    /// metres from the south-west corner of a maze, or in a world's own frame; DEG in degrees,
-    /// counter-clockwise from east
-    #[arg(
-        long,
-        value_name = "WHERE",
-        default_value = "random",
-        allow_hyphen_values = true
-    )]
-    start: Start,
+    #[command(flatten)]
+    start: StartOption,
     /// Give up after this many time steps [default: in proportion to the corridors' length, at the
     /// rate of the Large maze's 500]
     #[arg(long, value_name = "LIMIT", value_parser = clap::value_parser!(u32).range(1..))]
@@ -77,7 +70,9 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     let course = terrain.course(&name, &body()).with_context(|| name);
     let course = course.or_bad_input()?;
     let random = || Some(episode::random_start(&course, &body(), arguments.seed));
-    let start = arguments.start.on(&course, random);
+    let wanted = arguments.start.start;
+    let wanted = wanted.unwrap_or_else(|| Start::usual(&course));
+    let start = wanted.on(&course, random);
     let start = start.unboxed().or_bad_input()?;
     let trial = Trial {
         course: &course,
@@ -94,7 +89,7 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     let call = call
         .with("the brain", Some(word))
         .with("--seed", Some(arguments.seed))
-        .with("--start", Some(arguments.start))
+        .with("--start", Some(wanted))
         .with("--steps", arguments.steps);
     let mut keeper = arguments.going_on.keeper(call)?;
     let stop = interrupt::flag()?;
@@ -170,9 +165,7 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     })?;
     match episode.reached {
         true => Ok(()),
-        false => Err(Failure::Failed(anyhow!(
-            "{told}; give it more --steps, or another --seed"
-        ))),
+        false => Err(Failure::Failed(anyhow!(told))),
     }
 }
 

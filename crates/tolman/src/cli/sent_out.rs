@@ -20,20 +20,29 @@ pub(super) struct SentOut {
     /// Robot to drive, if the system can drive several; `tolman systems` lists them
     #[arg(long, value_name = "NAME")]
     robot: Option<String>,
-    /// Preset of the system's settings; `tolman systems` lists them
+    /// Preset of the system's settings [default: the first that `tolman systems` lists]
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
-    /// Change a setting of the preset; may be given several times
+    /// Change a setting of the preset; may be given several times. `tolman systems NAME` lists the
+    /// settings and their defaults
     #[arg(long, value_name = "SETTING=VALUE", value_parser = setting)]
     set: Vec<(String, String)>,
-    /// Where the robot starts: random, marked (the maze's start), X,Y or X,Y,DEG. X and Y are in
-    /// metres from the south-west corner of a maze, or in a world's own frame; DEG in degrees,
-    /// counter-clockwise from east
-    #[arg(long, value_name = "WHERE", allow_hyphen_values = true)]
-    start: Option<Start>,
+    #[command(flatten)]
+    pub(super) start: StartOption,
     /// Give up after this many time steps
     #[arg(long, value_name = "LIMIT", value_parser = clap::value_parser!(u32).range(1..))]
     steps: Option<u32>,
+}
+
+/// Option for where a robot starts.
+#[derive(clap::Args)]
+pub(super) struct StartOption {
+    /// Where the robot starts: marked (the S of the maze, the zone `start` of a world), random,
+    /// X,Y or X,Y,DEG. X and Y are in metres from the south-west corner of a maze, or in a world's
+    /// own frame; DEG in degrees, counter-clockwise from east [default: marked if there is such a
+    /// mark, else random; `drive`: random]
+    #[arg(long, value_name = "WHERE", allow_hyphen_values = true)]
+    pub(super) start: Option<Start>,
 }
 
 impl SentOut {
@@ -72,7 +81,7 @@ impl SentOut {
             .with("the robot", Some(outing.robot().name))
             .with("--preset", self.preset.as_ref())
             .with("--set", (!set.is_empty()).then(|| set.join(" ")))
-            .with("--start", self.start)
+            .with("--start", self.start.start)
             .with("--steps", self.steps)
     }
 
@@ -97,7 +106,7 @@ impl SentOut {
         schooling: &'a Schooling,
     ) -> Setup<'a> {
         Setup {
-            start: self.start,
+            start: self.start.start,
             steps: self.steps,
             settings: Settings {
                 preset: self.preset.as_deref(),
@@ -130,6 +139,9 @@ pub(super) fn setup_of<'a>(
 }
 
 fn setting(text: &str) -> Result<(String, String), String> {
+    if text == Settings::HELP {
+        return Ok((text.to_owned(), String::new()));
+    }
     let (name, value) = text
         .split_once('=')
         .ok_or_else(|| "expected SETTING=VALUE".to_owned())?;

@@ -32,6 +32,7 @@ mod mslst_better;
 mod race;
 mod replay;
 mod run;
+mod starts;
 mod survey;
 mod world;
 

@@ -221,13 +221,13 @@ fn a_robot_that_is_put_down_anywhere_drives_to_the_goal() {
         );
     }
     let told = ["out of time", "the robot is not at the goal"];
-    carry_out(&format!("{drive} random --seed 3 --steps 20")).refused(1, &told);
+    carry_out(&format!("{drive} random --seed 3 --steps 20")).failed(1, &told);
     carry_out(&format!("{drive} 4,4")).refused(2, &["(4, 4) m lies between the corridors"]);
     carry_out(&format!("{drive} 40,4")).refused(2, &["(40, 4) m", "start in a corridor"]);
     carry_out("learn --system diktiometry-better --maze ring.maze --set moves=1 --out start.json")
         .failed(1, &["of the true ways"]);
     let told = ["the goal is not on the map"];
-    carry_out("drive --map start.json --maze ring.maze --start random").refused(1, &told);
+    carry_out("drive --map start.json --maze ring.maze --start random").failed(1, &told);
 }
 
 #[test]

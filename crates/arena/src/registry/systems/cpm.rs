@@ -15,7 +15,7 @@ use crate::cpm::{Layout, epuck, epuck_course_on, patience, ring_measures, walker
 use crate::drawing;
 use crate::pioneer::{CORRIDOR_WIDTH, body};
 use crate::registry::{
-    LearnedMap, LogMapper, MapText, Registry, RobotEntry, RobotKind, Setup, Start, SystemEntry,
+    DrivesBy, LearnedMap, LogMapper, MapText, Registry, RobotEntry, RobotKind, Setup, SystemEntry,
     SystemFacts,
 };
 use crate::{BoxError, HasSimulated, Outing, Sent};
@@ -56,7 +56,7 @@ impl SystemEntry for CpmEntry {
             kinds: &[RobotKind::Epuck, RobotKind::Laser],
             own_robot: RobotEntry::EPUCK.name,
             why_no_log: "it tells ways apart by patterns of infrared readings: give cpm-better",
-            drives: true,
+            drives: DrivesBy::AnyMap,
             ..SystemFacts::new("cpm")
         };
         match self.is_paper {
@@ -99,7 +99,7 @@ impl SystemEntry for CpmEntry {
         };
         let config = setup.settings.over(&mode.config())?;
         let mode = mode.with(config);
-        let ground = Ground::of(setup, mode, Start::Marked)?;
+        let ground = Ground::of(setup, mode)?;
         let walker = ground.walker.clone();
         let cpm = match mode {
             Mode::Unlearned(_) => cpm::Cpm::unlearned(walker, config, setup.seed)?,
@@ -116,7 +116,7 @@ impl SystemEntry for CpmEntry {
         let first = files.first().ok_or("no map is given")?;
         let mode = first.mode;
         let config = setup.settings.over(&mode.config())?;
-        let ground = Ground::of(setup, mode, Start::Random)?;
+        let ground = Ground::of(setup, mode)?;
         let known = files.iter().map(|file| file.map.clone()).collect();
         let (walker, patterns) = (ground.walker.clone(), first.patterns.clone());
         let cpm = cpm::Cpm::with_maps(walker, patterns, config, known, setup.seed)?;
@@ -167,7 +167,7 @@ struct Ground {
 }
 
 impl Ground {
-    fn of(setup: &Setup<'_>, mode: Mode, usual: Start) -> Result<Self, BoxError> {
+    fn of(setup: &Setup<'_>, mode: Mode) -> Result<Self, BoxError> {
         let course = match setup.robot.kind() {
             RobotKind::Epuck => setup.with_door(epuck_course_on(setup.world, setup.terrain)?)?,
             _ => setup.course(&body(), CORRIDOR_WIDTH)?,
@@ -177,7 +177,7 @@ impl Ground {
             _ => ring_measures(&setup.robot.laser_config(), course.corridor_width).walker_config(),
         };
         walker.heading = mode.heading();
-        let start = setup.start(&course, usual, || course.anywhere(setup.seed))?;
+        let start = setup.start(&course, || course.anywhere(setup.seed))?;
         Ok(Self {
             course,
             start,

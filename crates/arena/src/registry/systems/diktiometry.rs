@@ -24,8 +24,8 @@ use crate::drawing::diktiometry::{PlaceMark, map_over_world, place_marks};
 use crate::episode::START_STREAM;
 use crate::registry::view_file::ViewFile;
 use crate::registry::{
-    LearnedMap, LogMapper, MapText, RobotEntry, RobotKind, Setup, Start, SystemEntry, SystemFacts,
-    slug,
+    DrivesBy, LearnedMap, LogMapper, MapText, RobotEntry, RobotKind, Setup, Start, SystemEntry,
+    SystemFacts, slug,
 };
 use crate::{BoxError, Outing, Sent};
 
@@ -107,7 +107,7 @@ impl SystemEntry for DiktiometryEntry {
             presets: &PRESETS,
             arena_preset: Some(ARENA),
             why_no_log: "it keeps no journal of its moves: give diktiometry-better",
-            drives: true,
+            drives: DrivesBy::AnyMap,
             places: PlaceRule::Corners,
             ..SystemFacts::new("diktiometry")
         };
@@ -174,13 +174,8 @@ impl SystemEntry for DiktiometryEntry {
         if let Some(goal) = goal {
             system.remember(Landmark::Goal, goal);
         }
-        let pose = match setup.start {
-            None => Pose::new(surveyed.at, Heading::NORTH),
-            Some(start) => {
-                system.put_down();
-                start_in(&office, robot, start, setup.seed)?
-            }
-        };
+        system.put_down();
+        let pose = start_in(&office, robot, setup)?;
         let body = office_robot(&office, robot, pose, setup.seed)?;
         let sent = Sent::new(office.course, body, steps, system).called(name);
         Ok(Box::new(sent))
@@ -292,7 +287,7 @@ impl DiktiometryEntry {
             let rng = &mut stream(setup.seed, START_STREAM);
             Some(office.random_start(&config.body(), rng))
         };
-        let start = setup.start(&office.course, Start::Random, random)?;
+        let start = setup.start(&office.course, random)?;
         let pose = Pose::new(start.position, Heading::NORTH);
         let routines = config.routines(furniture.corridor_width);
         let paper = DiktiometerConfig::paper(routines, self.mapper(&office, &config));
@@ -314,15 +309,10 @@ impl DiktiometryEntry {
 }
 
 /// Returns a start in the corridors of an office.
-fn start_in(
-    office: &Office,
-    robot: &SurveyorConfig,
-    start: Start,
-    seed: u64,
-) -> Result<Pose, BoxError> {
-    let rng = &mut stream(seed, START_STREAM);
+fn start_in(office: &Office, robot: &SurveyorConfig, setup: &Setup<'_>) -> Result<Pose, BoxError> {
+    let rng = &mut stream(setup.seed, START_STREAM);
     let random = || Some(office.random_start(&robot.body(), rng));
-    let start = start.on(&office.course, random)?;
+    let start = setup.start(&office.course, random)?;
     if !office.is_in_corridor(start.position) {
         let Point { coords: at, .. } = start.position;
         return Err(format!(

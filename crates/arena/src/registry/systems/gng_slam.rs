@@ -3,7 +3,9 @@ use tolman_robot::pioneer_2dx;
 use tolman_systems::gngslam::{OfflineSlam, OfflineSlamConfig};
 
 use super::WIDE;
-use crate::registry::{DemoWorld, RobotEntry, RobotKind, Setup, SystemEntry, SystemFacts};
+use crate::registry::{
+    DemoWorld, DrivesBy, RobotEntry, RobotKind, Setup, SystemEntry, SystemFacts,
+};
 use crate::{BoxError, Outing};
 
 /// [`OfflineSlam`], which gathers records until it has as many as it wants, and then learns a map
@@ -43,6 +45,8 @@ impl SystemEntry for GngSlamEntry {
             presets: &PRESETS,
             arena_preset: Some(ARENA),
             why_no_log: "it tells places by what a camera sees, which a log of a laser does not have",
+            // It plans ways on it.
+            drives: DrivesBy::NoMap,
             // It is done when it has its records.
             claims: false,
             demo: (DemoWorld::Small, 1),
@@ -54,7 +58,7 @@ impl SystemEntry for GngSlamEntry {
         setup.anew(self.name())?;
         let body = pioneer_2dx::body();
         let course = setup.course(&body, WIDE)?;
-        let start = setup.start_anywhere(&course, &body)?;
+        let start = setup.start_off_centre(&course, &body)?;
         let mut config = OfflineSlamConfig::paper();
         let by_size = RECORDS_A_CELL * course.maze.reachable().count();
         let presets = [config.records, by_size.max(2)].map(|records| Gathering { records });

@@ -14,8 +14,8 @@ use crate::gngslam::LaidOver;
 use crate::outing::moved;
 use crate::pioneer::body;
 use crate::registry::{
-    DemoWorld, LearnedMap, LogMapper, MapText, Registry, RobotEntry, RobotKind, Setup, SystemEntry,
-    SystemFacts,
+    DemoWorld, DrivesBy, LearnedMap, LogMapper, MapText, Registry, RobotEntry, RobotKind, Setup,
+    SystemEntry, SystemFacts,
 };
 use crate::{BoxError, Depicted, Founding, HasSimulated, Outing, Sent, Simulated};
 
@@ -56,8 +56,9 @@ impl SystemEntry for GngSlamBetterEntry {
             presets: &PRESETS,
             arena_preset: Some(BY_CHANCE),
             log_mapper: Some(LogMapper::PlaceGraph),
-            drives: true,
+            drives: DrivesBy::AnyMap,
             claims: false,
+            tried: true,
             demo: (DemoWorld::Small, 1),
             ..SystemFacts::new("gng-slam-better")
         }
@@ -154,7 +155,7 @@ impl Mission {
     fn begin(self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
         let kind = setup.robot.kind();
         let course = setup.course(&body_of(kind), WIDE)?;
-        let start = setup.start_anywhere(&course, &body_of(kind))?;
+        let start = setup.start_off_centre(&course, &body_of(kind))?;
         match kind {
             RobotKind::Laser | RobotKind::Camera => {
                 let mut config = setup.robot.laser_config();
@@ -221,7 +222,7 @@ impl LearnedMap for MapFile {
                 "the goal was sensed at {} places, with place {place} in the middle",
                 goals(self)
             ),
-            None => "the goal was never sensed: learn longer".to_owned(),
+            None => "the goal was never sensed".to_owned(),
         };
         vec![
             format!("{}, seed {}", self.origin.world, self.origin.seed),

@@ -1,10 +1,12 @@
-use tolman_maze::Maze;
-use tolman_systems::micromouse::SIDE;
+use tolman_geom::Pose;
+use tolman_maze::{Cell, Maze};
 use tolman_systems::micromouse::system::{MazeMouse, MazeMouseConfig};
+use tolman_systems::micromouse::{Brief, SIDE};
 
-use crate::micromouse::brief;
+use crate::course::Course;
+use crate::cpm::direction_of;
 use crate::pioneer::{CORRIDOR_WIDTH, body};
-use crate::registry::{Setup, Start, SystemEntry, SystemFacts};
+use crate::registry::{Setup, SystemEntry, SystemFacts};
 use crate::{BoxError, Outing};
 
 /// [`MazeMouse`], which is told the grid, its start and the goal.
@@ -28,18 +30,31 @@ impl SystemEntry for MicromouseEntry {
 
     fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
         setup.anew(self.name())?;
-        let maze = &setup.terrain.maze("the micromouse")?.maze;
+        setup.settings.none()?;
+        setup.terrain.maze("the micromouse")?;
         let config = setup.robot.laser_config();
         let course = setup.course(&body(), CORRIDOR_WIDTH)?;
-        let start = setup.start(&course, Start::Marked, || None)?;
+        let start = setup.start(&course, || course.anywhere(setup.seed))?;
         let mouse = MazeMouseConfig::new(
             course.corridor_width,
             config.turn_per_step,
             config.translate_per_step,
         );
-        let mouse = MazeMouse::whole_maze(brief(maze)?, mouse)?;
+        let mouse = MazeMouse::whole_maze(brief_from(&course, start), mouse)?;
         let robot = setup.laser_at(&course, start, config)?;
         Ok(setup.send(self.name(), course, robot, mouse))
+    }
+}
+
+/// Returns the initial knowledge of a mouse at `start`: the size of the maze, its start and its
+/// goals.
+pub(super) fn brief_from(course: &Course, start: Pose) -> Brief {
+    let cell = course.world.cell_at(start.position);
+    Brief {
+        grid: course.maze.grid(),
+        start: cell.unwrap_or(Cell::new(0, 0)),
+        heading: direction_of(start.heading),
+        goals: course.maze.goals().to_vec(),
     }
 }
 

@@ -9,7 +9,7 @@ use tolman_systems::mslst::{self, GrowthRecord, Learned, MapFile, MslstConfig};
 use crate::course::{Course, Terrain};
 use crate::drawing::mslst::whole_graph_over_maze;
 use crate::pioneer::body;
-use crate::registry::{DemoWorld, LearnedMap, MapText, Setup, SystemEntry, SystemFacts};
+use crate::registry::{DemoWorld, DrivesBy, LearnedMap, MapText, Setup, SystemEntry, SystemFacts};
 use crate::{BoxError, Outing, Sent};
 
 /// [`mslst`] on a laser robot.
@@ -53,7 +53,7 @@ impl SystemEntry for MslstEntry {
             is_paper: true,
             presets: &PRESETS,
             arena_preset: Some(ARENA),
-            drives: true,
+            drives: DrivesBy::AnyMap,
             // It is done when it has used up its actions.
             claims: false,
             demo: (DemoWorld::Small, 42),
@@ -143,7 +143,7 @@ impl LearnedMap for MapFile {
             ),
             match furthest {
                 Some(furthest) => format!("the furthest node is {furthest} actions from one"),
-                None => "no way to the destination is known: learn longer".to_owned(),
+                None => "no way to the destination is known".to_owned(),
             },
         ]
     }

@@ -18,7 +18,7 @@ use crate::mslst::better_config;
 use crate::outing::moved;
 use crate::pioneer::body;
 use crate::registry::{
-    DemoWorld, LearnedMap, MapText, RobotEntry, Setup, SystemEntry, SystemFacts, because,
+    DemoWorld, DrivesBy, LearnedMap, MapText, RobotEntry, Setup, SystemEntry, SystemFacts, because,
 };
 use crate::{BoxError, Founding, Outing, Sent};
 
@@ -35,7 +35,7 @@ impl SystemEntry for MslstBetterEntry {
             about: "draws walls from laser scans, explores where its map has gaps, and navigates by a belief over where it can stand",
             own_robot: RobotEntry::NOISY_PIONEER.name,
             presets: &PRESETS,
-            drives: true,
+            drives: DrivesBy::AnyMap,
             demo: (DemoWorld::Large, 8),
             ..SystemFacts::new("mslst-better")
         }
@@ -128,7 +128,7 @@ impl LearnedMap for BetterMapFile {
     fn lines(&self) -> Vec<String> {
         let goals: Vec<String> = goals(&self.chart).map(|place| place.to_string()).collect();
         let goal = match goals.as_slice() {
-            [] => "the goal was never sensed: learn longer".to_owned(),
+            [] => "the goal was never sensed".to_owned(),
             goals => format!("the goal was sensed at place {}", goals.join(", ")),
         };
         vec![

@@ -2,10 +2,9 @@ use tolman_maze::Maze;
 use tolman_robot::Ring;
 use tolman_systems::micromouse::noisy::{MotionSource, NoisyMouse, NoisyMouseConfig};
 
-use super::micromouse::{WALLS, too_large};
-use crate::micromouse::brief;
+use super::micromouse::{WALLS, brief_from, too_large};
 use crate::pioneer::{CORRIDOR_WIDTH, body};
-use crate::registry::{Setup, Start, SystemEntry, SystemFacts};
+use crate::registry::{Setup, SystemEntry, SystemFacts};
 use crate::{BoxError, Outing};
 
 /// [`NoisyMouse`], which is told the same as the micromouse and has no compass. It localizes with a
@@ -33,18 +32,19 @@ impl SystemEntry for WallBeliefEntry {
 
     fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
         setup.anew(self.name())?;
-        let maze = &setup.terrain.maze("the wall belief")?.maze;
+        setup.settings.none()?;
+        setup.terrain.maze("the wall belief")?;
         let mut config = setup.robot.laser_config();
         config.ring = Ring::full(BEAMS, config.ring.max_range);
         let course = setup.course(&body(), CORRIDOR_WIDTH)?;
-        let start = setup.start(&course, Start::Marked, || None)?;
+        let start = setup.start(&course, || course.anywhere(setup.seed))?;
         let mut mouse = NoisyMouseConfig::new(
             course.corridor_width,
             config.turn_per_step,
             config.translate_per_step,
         );
         mouse.motion = MotionSource::Encoders;
-        let mouse = NoisyMouse::new(brief(maze)?, mouse, setup.seed)?;
+        let mouse = NoisyMouse::new(brief_from(&course, start), mouse, setup.seed)?;
         let robot = setup.laser_at(&course, start, config)?;
         Ok(setup.send(self.name(), course, robot, mouse))
     }

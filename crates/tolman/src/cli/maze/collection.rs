@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, anyhow};
 use indicatif::{ParallelProgressIterator, ProgressBar};
 use rayon::prelude::*;
-use tolman_maze::{Maze, MazeFile};
+use tolman_maze::{Cell, Direction, Maze, MazeFile};
 
 use super::input;
 use crate::cli::looks::Looks;
@@ -33,7 +33,13 @@ impl Collection {
                         let name = input::name(&file);
                         note(&format!("{name} is a maze for robots ({reason}): skipped"));
                     }
-                    _ => mazes.push((file, read.maze)),
+                    _ => {
+                        let mut maze = read.maze;
+                        // As in contests of mice.
+                        let start = maze.start().unwrap_or((Cell::new(0, 0), Direction::North));
+                        maze.set_start(Some(start));
+                        mazes.push((file, maze));
+                    }
                 },
                 Err(failure) => unsound.push(failure),
             }

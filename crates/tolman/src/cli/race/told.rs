@@ -10,7 +10,7 @@ use tolman_systems::micromouse::competition::{RunLeg, SpeedRunExploration};
 
 use super::Raced;
 use super::shown::side_towards;
-use crate::cli::mice::MouseResult;
+use crate::cli::mice::{MouseResult, ON_GOAL};
 
 impl MouseResult for Raced {
     fn has_solved(&self) -> bool {
@@ -32,6 +32,9 @@ impl MouseResult for Raced {
             proof_cells,
             ..
         } = explored;
+        if explored.run.is_empty() {
+            return format!("{ON_GOAL}: 0.000 s, {proven}");
+        }
         format!(
             "run of {:.3} s, {proven}: {}; {cells} cells explored: search {search_cells}, proof {proof_cells}, home {}",
             f64::from(explored.certificate.time_ms) / 1000.0,
