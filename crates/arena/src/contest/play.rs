@@ -218,7 +218,7 @@ impl Located {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Home {
     /// Driven distance over that of the shortest way; `None` if it did not arrive within
-    /// [`Contest::LIMIT`] times that length.
+    /// [`Contest::most_home`].
     pub over_shortest: Option<f64>,
     /// Number of time steps in which the robot touched something.
     pub bumps: u32,
@@ -239,6 +239,13 @@ impl Contest<'_> {
     /// Maximum driven distance of a task, as a multiple of the length of all corridors, or of the
     /// shortest way to the goal.
     pub const LIMIT: f64 = 10.0;
+
+    /// Returns the maximum distance that a robot may drive to the goal after it was put down, m:
+    /// ten times the `shortest` way, and the length of all `corridors` once, because it first has
+    /// to find out where it is, however near the goal is.
+    pub(super) fn most_home(shortest: f64, corridors: f64) -> f64 {
+        Self::LIMIT * shortest + corridors
+    }
 
     /// Holds the contest and returns its record. Calls `watch` with the contestant at every
     /// [`Moment`]; nothing depends on it.
@@ -768,7 +775,7 @@ impl Bout {
         }
         watch(&*self.outing, Moment::PutDown);
         let goal = Task::Reach(Goal::Landmark(Landmark::Goal));
-        let most = Contest::LIMIT * shortest;
+        let most = Contest::most_home(shortest, self.corridors());
         let pursuit = self.set_out(goal, most, None);
         let driven = self.pursue(pursuit, |outing, _| watch(outing, Moment::Acted));
         let arrived = driven.arrived;

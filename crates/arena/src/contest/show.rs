@@ -169,7 +169,7 @@ impl Bout {
     pub(super) fn begin_to_go_home(&mut self) -> (Pursuit, f64) {
         let cell = self.squares.cell_at(self.here());
         let shortest = self.maze.metres_to_goal(cell, self.squares.pitch);
-        let most = Contest::LIMIT * shortest.max(self.squares.pitch);
+        let most = Contest::most_home(shortest, self.corridors());
         let goal = Task::Reach(Goal::Landmark(Landmark::Goal));
         (self.set_out(goal, most, None), shortest)
     }

@@ -65,8 +65,9 @@ impl<'a> Sender<'a> {
     }
 
     fn home(&self, number: u64, start: (Cell, Direction)) -> Result<Home, BoxError> {
-        let shortest = (self.course.maze).metres_to_goal(start.0, self.course.corridor_width);
-        let most = Contest::LIMIT * shortest;
+        let (maze, width) = (&self.course.maze, self.course.corridor_width);
+        let shortest = maze.metres_to_goal(start.0, width);
+        let most = Contest::most_home(shortest, maze.corridor_count() as f64 * width);
         let trial = self.trial(number, start, most);
         let Episode {
             reached,

@@ -54,7 +54,7 @@ record! {
 record! {
     /// A robot's drive to the goal.
     pub(super) struct HomeRun {
-        /// Whether it reached the goal within ten times the shortest way.
+        /// Whether it reached the goal within ten times the shortest way and once all corridors.
         success: bool => higher("success"),
         /// For runs that arrived: driven distance over that of the shortest way from cell to cell.
         metres_over_shortest: Option<f64> => lower("metres / shortest"),
@@ -361,7 +361,7 @@ pub(super) fn note(task: ArenaTask, robot: Option<RobotEntry>) -> String {
     match task {
         ArenaTask::Learn => format!("{worlds} {places} {robots}"),
         ArenaTask::Home => format!(
-            "{worlds} By the map that was learned before, right or wrong; no more than ten times the shortest way. {robots}"
+            "{worlds} By the map that was learned before, right or wrong; no more than ten times the shortest way and once all corridors. {robots}"
         ),
         ArenaTask::Locate => format!("{worlds} By the map that was learned before. {robots}"),
     }
