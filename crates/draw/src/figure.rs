@@ -3,6 +3,7 @@
 use maud::{Markup, PreEscaped, html};
 
 use super::number::tenths;
+use super::visible;
 
 /// Returns the style rules of all drawings, with the colours of the light and the dark scheme. A
 /// stand-alone file contains them itself; a page contains them once.
@@ -124,13 +125,8 @@ impl Figure {
                 (body)
             }
         };
-        PreEscaped(element.into_string().replace(forbidden_in_xml, "\u{fffd}"))
+        PreEscaped(visible(&element.into_string()).into_owned())
     }
-}
-
-/// Returns whether XML forbids a character, even escaped.
-const fn forbidden_in_xml(c: char) -> bool {
-    matches!(c, '\0'..='\u{8}' | '\u{b}' | '\u{c}' | '\u{e}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}')
 }
 
 #[cfg(test)]

@@ -64,6 +64,7 @@ mod series;
 mod shade;
 mod simplify;
 mod tiles;
+mod visible;
 mod words;
 
 pub use boxplot::{BoxGroup, BoxPlot, Dot, PaperMark};
@@ -80,3 +81,4 @@ pub use region::Region;
 pub use series::Series;
 pub use shade::Shade;
 pub use tiles::Tiles;
+pub use visible::visible;

@@ -2,7 +2,7 @@
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::{Figure, style};
+use super::{Figure, style, visible};
 
 /// A page: facts and text first, then figures and tables from top to bottom.
 ///
@@ -103,7 +103,7 @@ impl Page {
                 }
             }
         };
-        page.into_string()
+        visible(&page.into_string()).into_owned()
     }
 }
 

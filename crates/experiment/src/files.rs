@@ -1,11 +1,14 @@
 //! Writes files completely or not at all, and lists the files of a folder.
 
+use core::hash::{BuildHasher, Hasher};
 use std::fs::{self, File, OpenOptions};
+use std::hash::RandomState;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Writes a file completely or not at all. Readers see the old contents or the new ones, never a
-/// part. The data is on the disk before the file is moved to its place.
+/// part. The data is on the disk before the file is moved to its place. Of two writers at a time,
+/// the last to end wins.
 ///
 /// A link is followed. A read-only file is left as it is. A device or a pipe is written to, not
 /// replaced.
@@ -13,47 +16,86 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// The system's error; no new file is then left behind.
 pub fn write_whole(path: &Path, contents: &[u8]) -> io::Result<()> {
-    let Ok(there) = fs::canonicalize(path) else {
-        return move_into_place(path, contents);
-    };
-    let former = fs::metadata(&there)?;
-    if !former.is_file() {
-        return OpenOptions::new()
+    match Replacement::of(path)? {
+        Some(new) => new.take_place(contents),
+        None => OpenOptions::new()
             .write(true)
-            .open(&there)?
-            .write_all(contents);
+            .open(path)?
+            .write_all(contents),
     }
-    if former.permissions().readonly() {
-        return Err(io::ErrorKind::PermissionDenied.into());
-    }
-    move_into_place(&there, contents)
 }
 
-fn move_into_place(path: &Path, contents: &[u8]) -> io::Result<()> {
-    let mut name = std::ffi::OsString::from(".");
-    name.push(path.file_name().unwrap_or_default());
-    name.push(".tmp");
-    let temporary = path.with_file_name(name);
-    let written = File::create(&temporary).and_then(|mut file| {
-        file.write_all(contents)?;
-        file.sync_data()?;
-        fs::rename(&temporary, path)
-    });
-    if written.is_err() {
-        // The temporary file is useless; the error to report is the first one.
-        let _ = fs::remove_file(&temporary);
-    }
-    written
+/// Checks that [`write_whole`] can write to `path`, and changes nothing there.
+///
+/// # Errors
+/// The system's error.
+pub fn check_writable(path: &Path) -> io::Result<()> {
+    Replacement::of(path).map(drop)
 }
 
-/// Returns the files directly in a folder, sorted by name.
+/// A new file beside the one that it is to replace. It is removed unless it takes its place.
+struct Replacement {
+    path: PathBuf,
+    temporary: PathBuf,
+    file: File,
+}
+
+impl Replacement {
+    /// Makes an empty file; `None` if `path` is a device or a pipe, which cannot be replaced.
+    fn of(path: &Path) -> io::Result<Option<Self>> {
+        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let former = fs::metadata(&path).ok();
+        match former.as_ref().map(fs::Metadata::file_type) {
+            Some(kind) if kind.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
+            Some(kind) if !kind.is_file() => return Ok(None),
+            _ => {}
+        }
+        let mode = former.map(|former| former.permissions());
+        if mode.as_ref().is_some_and(fs::Permissions::readonly) {
+            return Err(io::ErrorKind::PermissionDenied.into());
+        }
+        loop {
+            // Nobody can foresee the name, and a link of that name is not followed.
+            let name = format!(".{:016x}.tmp", RandomState::new().build_hasher().finish());
+            let temporary = path.with_file_name(name);
+            match File::create_new(&temporary) {
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+                file => {
+                    let new = Self {
+                        path,
+                        temporary,
+                        file: file?,
+                    };
+                    mode.map_or(Ok(()), |mode| new.file.set_permissions(mode))?;
+                    return Ok(Some(new));
+                }
+            }
+        }
+    }
+
+    fn take_place(mut self, contents: &[u8]) -> io::Result<()> {
+        self.file.write_all(contents)?;
+        self.file.sync_all()?;
+        fs::rename(&self.temporary, &self.path)
+    }
+}
+
+impl Drop for Replacement {
+    fn drop(&mut self) {
+        // It is gone if it has taken its place; else the error to report is the first one.
+        let _ = fs::remove_file(&self.temporary);
+    }
+}
+
+/// Returns what lies directly in a folder and is no folder, sorted by name. It may be a link to
+/// nothing.
 ///
 /// # Errors
 /// The system's error.
 pub fn files_in(folder: &Path) -> io::Result<Vec<PathBuf>> {
     let listed = fs::read_dir(folder)?.collect::<io::Result<Vec<_>>>()?;
     let mut files: Vec<PathBuf> = listed.iter().map(fs::DirEntry::path).collect();
-    files.retain(|path| path.is_file());
+    files.retain(|path| !path.is_dir());
     files.sort();
     Ok(files)
 }
@@ -80,6 +122,7 @@ mod tests {
         let mut permissions = fs::metadata(&file).unwrap().permissions();
         permissions.set_readonly(true);
         fs::set_permissions(&file, permissions).unwrap();
+        assert!(check_writable(&file).is_err() && check_writable(&folder).is_err());
         let refused = write_whole(&file, b"newer").unwrap_err();
         assert_eq!(refused.kind(), io::ErrorKind::PermissionDenied);
 

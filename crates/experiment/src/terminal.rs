@@ -32,7 +32,7 @@ impl Terminal {
     /// Writes a line above the bar. Nothing happens if standard error is closed.
     fn line(&self, text: &str) {
         let write = || {
-            let _ = writeln!(std::io::stderr(), "{text}");
+            let _ = writeln!(std::io::stderr(), "{}", tolman_draw::visible(text));
         };
         match self.bar.get() {
             Some(bar) => bar.suspend(write),

@@ -22,8 +22,7 @@ use tolman_geom::nalgebra::Matrix3;
 pub use fault::{G2oFault, G2oFaultKind};
 use line::Entry;
 
-/// Maximum length of the text in a compressed file, bytes.
-const MOST_TEXT: u64 = 1 << 30;
+use crate::input::{self, MOST_BYTES};
 
 /// A pose graph in the plane, and the unusable parts of its file.
 ///
@@ -91,7 +90,7 @@ pub enum G2oError {
         why: String,
     },
     /// The text of the compressed file is longer than the program accepts.
-    #[error("the gzip file holds more than {} MB of text; give it in parts", MOST_TEXT >> 20)]
+    #[error("the gzip file holds more than {} MB of text; give it in parts", MOST_BYTES >> 20)]
     TooLarge,
 }
 
@@ -113,8 +112,10 @@ impl G2o {
             return Self::parse(&String::from_utf8_lossy(bytes));
         }
         let mut text = Vec::new();
-        let unpacked = GzDecoder::new(bytes).take(MOST_TEXT).read_to_end(&mut text);
-        if text.len() as u64 == MOST_TEXT {
+        let unpacked = GzDecoder::new(bytes)
+            .take(MOST_BYTES + 1)
+            .read_to_end(&mut text);
+        if text.len() as u64 > MOST_BYTES {
             return Err(G2oError::TooLarge);
         }
         match unpacked {
@@ -135,7 +136,7 @@ impl G2o {
     /// # Complexity
     /// O(n log n) for n lines.
     pub fn parse(text: &str) -> Result<Self, G2oError> {
-        Self::of(text, false)
+        Self::of(input::without_mark(text), false)
     }
 
     fn of(text: &str, is_cut: bool) -> Result<Self, G2oError> {

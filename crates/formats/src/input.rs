@@ -4,7 +4,7 @@
 //! that never ends, and each reports non-text in the same way.
 
 use core::str;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -27,12 +27,9 @@ pub enum SourceError {
         /// Maximum number of bytes that are read.
         most: u64,
     },
-    /// The file has a byte order mark.
-    #[error("it begins with a byte order mark of {encoding}; save it as UTF-8 text without one")]
-    ByteOrderMark {
-        /// Encoding of the mark: `UTF-8` or `UTF-16`.
-        encoding: &'static str,
-    },
+    /// The file is UTF-16 text.
+    #[error("it begins with a byte order mark of UTF-16; save it as UTF-8 text")]
+    Utf16,
     /// The file is compressed by gzip.
     #[error("it is packed by gzip; unpack it with `gunzip`")]
     Packed,
@@ -46,12 +43,38 @@ pub enum SourceError {
     },
 }
 
+/// Folders of names that stand for streams which are open already.
+const STREAMS: [&str; 3] = ["/dev/fd", "/dev/stdin", "/proc/self/fd"];
+
+/// Opens a file. Pipes and devices are refused, because they may never end or begin, unless a
+/// shell's `<(COMMAND)` made them.
+///
+/// # Errors
+/// The system's error, or [`io::ErrorKind::InvalidInput`] if it is no file.
+pub fn open(path: &Path) -> io::Result<File> {
+    let is_stream = STREAMS.iter().any(|stream| path.starts_with(stream));
+    let kind = fs::metadata(path)?.file_type();
+    if kind.is_file() || kind.is_dir() || is_stream {
+        return File::open(path);
+    }
+    let told = "it is a pipe or a device; give a file, /dev/stdin, or <(COMMAND) in a shell";
+    Err(io::Error::new(io::ErrorKind::InvalidInput, told))
+}
+
+/// Byte order mark of UTF-8, with which some editors begin a file.
+const MARK: char = '\u{feff}';
+
+/// Returns a text without a byte order mark at its beginning.
+pub(crate) fn without_mark(text: &str) -> &str {
+    text.strip_prefix(MARK).unwrap_or(text)
+}
+
 /// Returns the bytes of a file.
 ///
 /// # Errors
 /// [`SourceError::System`] and [`SourceError::TooLong`].
 pub fn bytes(path: &Path) -> Result<Vec<u8>, SourceError> {
-    bytes_of(File::open(path)?)
+    bytes_of(open(path)?)
 }
 
 /// Returns the text of a file.
@@ -59,7 +82,7 @@ pub fn bytes(path: &Path) -> Result<Vec<u8>, SourceError> {
 /// # Errors
 /// [`SourceError`] if it cannot be read or is not text.
 pub fn text(path: &Path) -> Result<String, SourceError> {
-    text_of(File::open(path)?)
+    text_of(open(path)?)
 }
 
 /// Returns all bytes that `source` gives.
@@ -81,24 +104,23 @@ pub fn bytes_of(source: impl Read) -> Result<Vec<u8>, SourceError> {
 /// [`SourceError`] if it cannot be read or is not text.
 pub fn text_of(source: impl Read) -> Result<String, SourceError> {
     let bytes = bytes_of(source)?;
-    let marks: [(&[u8], _); 3] = [
-        (b"\xef\xbb\xbf", "UTF-8"),
-        (b"\xff\xfe", "UTF-16"),
-        (b"\xfe\xff", "UTF-16"),
-    ];
-    if let Some((_, encoding)) = marks.iter().find(|(mark, _)| bytes.starts_with(mark)) {
-        return Err(SourceError::ByteOrderMark { encoding });
+    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
+        return Err(SourceError::Utf16);
     }
     if bytes.starts_with(b"\x1f\x8b") {
         return Err(SourceError::Packed);
     }
-    String::from_utf8(bytes).map_err(|error| {
+    let text = String::from_utf8(bytes).map_err(|error| {
         let byte = error.utf8_error().valid_up_to();
         let before = error.as_bytes().iter().take(byte);
         SourceError::NoText {
             line: before.filter(|byte| **byte == b'\n').count() + 1,
             byte,
         }
+    })?;
+    Ok(match text.strip_prefix(MARK) {
+        Some(rest) => rest.to_owned(),
+        None => text,
     })
 }
 
@@ -115,7 +137,7 @@ mod tests {
         assert_eq!(text_of(&b"o---o\n"[..]).unwrap(), "o---o\n");
         assert!(told(b"a\nb\n\xe9\n").starts_with("line 3: byte 4 of the file is not UTF-8"));
         assert!(told(b"\x1f\x8b\x08").starts_with("it is packed by gzip"));
-        assert!(told(b"\xef\xbb\xbfo---o").contains("byte order mark of UTF-8"));
+        assert_eq!(text_of(&b"\xef\xbb\xbfo---o"[..]).unwrap(), "o---o");
         assert!(told(b"\xff\xfeo\0").contains("byte order mark of UTF-16"));
     }
 

@@ -86,6 +86,17 @@ impl RosMap {
     /// # Errors
     /// [`RosMapError`] with the file, and the line or byte at fault.
     pub fn read(path: &Path) -> Result<Self, RosMapError> {
+        let (header, path) = Self::header(path)?;
+        let picture = GreyMap::parse(&load(&path)?);
+        let picture = picture.map_err(|source| RosMapError::Picture { path, source })?;
+        Ok(Self::of(&header, &picture))
+    }
+
+    /// Reads the YAML file at `path`, and returns it with the path of its picture.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn header(path: &Path) -> Result<(RosMapHeader, PathBuf), RosMapError> {
         let bytes = load(path)?;
         let text = core::str::from_utf8(&bytes).map_err(|error| RosMapError::Text {
             path: path.to_owned(),
@@ -95,10 +106,8 @@ impl RosMap {
             path: path.to_owned(),
             source,
         })?;
-        let path = path.with_file_name(&header.image);
-        let picture = GreyMap::parse(&load(&path)?);
-        let picture = picture.map_err(|source| RosMapError::Picture { path, source })?;
-        Ok(Self::of(&header, &picture))
+        let picture = path.with_file_name(&header.image);
+        Ok((header, picture))
     }
 
     /// Returns the occupancy grid of a `header` and its `picture`, whose first row is the

@@ -10,7 +10,6 @@ mod messages;
 mod mounts;
 
 use alloc::collections::BTreeMap;
-use std::fs::File;
 use std::io::{BufReader, Read};
 use std::path::Path;
 
@@ -20,6 +19,7 @@ use mcap::{McapError, McapResult};
 use tolman_geom::Pose;
 use tolman_robot::{TimedPose, Trajectory};
 
+use crate::input::{self, MOST_BYTES};
 use crate::log::{LogEntry, LogError, LogOdometry, LogReport, LogScan, LogTrouble};
 use messages::{LaserScan, Odometry, Transforms, decode};
 use mounts::Mounts;
@@ -54,6 +54,8 @@ struct PlacelessScan {
 #[derive(Default)]
 struct Reader {
     report: LogReport,
+    /// Number of bytes that may still be read.
+    left: u64,
     /// Type of the messages of each schema, by the schema's id.
     schemas: BTreeMap<u16, String>,
     /// Topic and type of the messages of each channel, by the channel's id.
@@ -97,16 +99,18 @@ impl<'a> Fields<'a> {
 }
 
 impl RosBag {
-    /// Reads a file.
+    /// Reads a file, of which `most` bytes may be read, unpacked; as a rule
+    /// [`MOST_BYTES`](crate::input::MOST_BYTES). If there are more, the report has
+    /// [`LogTrouble::TooLarge`].
     ///
     /// # Errors
     /// If it cannot be opened, or nothing in it can be used.
-    pub fn read(path: &Path) -> Result<Self, LogError> {
-        let file = File::open(path).map_err(|source| LogError::File {
+    pub fn read(path: &Path, most: u64) -> Result<Self, LogError> {
+        let file = input::open(path).map_err(|source| LogError::File {
             path: path.to_owned(),
             source,
         })?;
-        let bag = Self::of(BufReader::new(file));
+        let bag = Self::within(BufReader::new(file), most);
         match bag.entries.is_empty() {
             true => Err(bag.report.nothing(path, "no scan with odometry")),
             false => Ok(bag),
@@ -116,7 +120,14 @@ impl RosBag {
     /// Reads from `source` and returns the bag; unusable messages are left out and reported.
     #[must_use]
     pub fn of(source: impl Read) -> Self {
-        let mut reader = Reader::default();
+        Self::within(source, MOST_BYTES)
+    }
+
+    fn within(source: impl Read, most: u64) -> Self {
+        let mut reader = Reader {
+            left: most,
+            ..Reader::default()
+        };
         if let Err(error) = reader.take_all(source) {
             let number = reader.report.lines + 1;
             let what = error.to_string();
@@ -142,7 +153,15 @@ impl Reader {
                     let read = source.read(reader.insert(needed))?;
                     reader.notify_read(read);
                 }
-                LinearReadEvent::Record { data, opcode } => self.take_record(opcode, data)?,
+                LinearReadEvent::Record { data, opcode } => {
+                    let Some(left) = self.left.checked_sub(data.len() as u64) else {
+                        let number = self.report.lines + 1;
+                        self.report.met_trouble(LogTrouble::TooLarge, number, "");
+                        return Ok(());
+                    };
+                    self.left = left;
+                    self.take_record(opcode, data)?;
+                }
             }
         }
         Ok(())

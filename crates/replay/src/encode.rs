@@ -2,6 +2,7 @@
 
 use serde_json::{Value, json};
 use thiserror::Error;
+use tolman_draw::visible;
 use tolman_geom::Point;
 use tolman_robot::{Body, Ring};
 use tolman_sim::{Bounds, DoorState};
@@ -100,7 +101,19 @@ pub enum EncodeError {
 /// # Errors
 /// [`EncodeError`] if there is nothing to play, or if a number, an order or a name is invalid.
 pub fn json(replay: &Replay) -> Result<String, EncodeError> {
-    Ok(value(replay)?.to_string().replace('<', "\\u003c"))
+    let mut value = value(replay)?;
+    show_hidden(&mut value);
+    Ok(value.to_string().replace('<', "\\u003c"))
+}
+
+/// Makes all texts [`visible`].
+fn show_hidden(value: &mut Value) {
+    match value {
+        Value::String(text) => *text = visible(text).into_owned(),
+        Value::Array(items) => items.iter_mut().for_each(show_hidden),
+        Value::Object(fields) => fields.values_mut().for_each(show_hidden),
+        _ => {}
+    }
 }
 
 fn value(replay: &Replay) -> Result<Value, EncodeError> {

@@ -1,6 +1,7 @@
 //! The HTML file of a replay.
 
 use maud::{DOCTYPE, PreEscaped, html};
+use tolman_draw::visible;
 
 use super::{EncodeError, Replay, json};
 
@@ -50,7 +51,7 @@ pub fn page(replay: &Replay) -> Result<String, EncodeError> {
             }
         }
     };
-    Ok(page.into_string())
+    Ok(visible(&page.into_string()).into_owned())
 }
 
 /// Returns whether [`page`] made a file that begins with these bytes. The first thousand are

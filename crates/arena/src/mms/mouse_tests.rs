@@ -157,7 +157,7 @@ fn after_a_crash_it_goes_on_from_the_start() {
     let mut always = host(&maze);
     always.meddle = |_, _| "crash".to_owned();
     let (played, _) = play_with(always, Until::Proof);
-    assert!(matches!(played, Err(PlayError::Crashes { crashes: 9 })));
+    assert!(matches!(played, Err(PlayError::SentBack { times: 9 })));
 }
 
 #[test]

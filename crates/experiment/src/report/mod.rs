@@ -63,7 +63,7 @@ pub(crate) fn html(outcome: &ExperimentOutcome) -> String {
             }
         }
     };
-    page.into_string()
+    tolman_draw::visible(&page.into_string()).into_owned()
 }
 
 /// Returns the head of a page, with the style of all pages and its own `style`.

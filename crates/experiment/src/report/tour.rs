@@ -51,7 +51,7 @@ pub fn tour_html(outcomes: &[ExperimentOutcome], last: &str) -> String {
             }
         }
     };
-    page.into_string()
+    tolman_draw::visible(&page.into_string()).into_owned()
 }
 
 /// One experiment on the page.

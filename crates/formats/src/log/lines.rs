@@ -2,6 +2,9 @@
 
 use std::io::{self, BufRead, Read};
 
+use super::LogTrouble;
+use crate::fields::Wrong;
+
 /// Maximum length of a line, bytes. Longer lines do not come from a log.
 const LONGEST: u64 = 1 << 20;
 
@@ -25,6 +28,18 @@ pub(crate) enum Line<'a> {
     TooLong,
     /// The rest of the file cannot be read.
     Lost(io::ErrorKind),
+}
+
+impl Line<'_> {
+    /// Returns the trouble with a line that has no text, in general and in words.
+    pub(crate) fn trouble(&self) -> Wrong {
+        match self {
+            Self::Text(_) | Self::NoText => (LogTrouble::NoText, String::new()),
+            Self::TooLong => (LogTrouble::TooLong, String::new()),
+            Self::Lost(io::ErrorKind::FileTooLarge) => (LogTrouble::TooLarge, String::new()),
+            Self::Lost(kind) => (LogTrouble::EndsEarly, kind.to_string()),
+        }
+    }
 }
 
 impl<R: BufRead> NumberedLines<R> {

@@ -34,12 +34,14 @@ pub struct LogReader<R> {
 const JUMP_S: f64 = 60.0;
 
 impl LogReader<Box<dyn BufRead + Send>> {
-    /// Opens a file, plain or gzipped.
+    /// Opens a file, plain or gzipped, of which `most` bytes of text may be read, as a
+    /// rule [`MOST_BYTES`](crate::input::MOST_BYTES). If there are more, the report has
+    /// [`LogTrouble::TooLarge`].
     ///
     /// # Errors
     /// If there is no such file.
-    pub fn open(path: &Path) -> Result<Self, LogError> {
-        Ok(Self::new(open(path)?))
+    pub fn open(path: &Path, most: u64) -> Result<Self, LogError> {
+        Ok(Self::new(open(path, most)?))
     }
 }
 
@@ -153,9 +155,7 @@ impl<R: BufRead> Iterator for LogReader<R> {
                     }
                     Err(wrong) => wrong,
                 },
-                Line::NoText => (LogTrouble::NoText, String::new()),
-                Line::TooLong => (LogTrouble::TooLong, String::new()),
-                Line::Lost(kind) => (LogTrouble::EndsEarly, kind.to_string()),
+                line => line.trouble(),
             };
             report.met_trouble(trouble, number, what);
         }

@@ -3,6 +3,7 @@ use std::path::Path;
 
 use super::{Line, LogError, LogReport, LogTrouble, NumberedLines, open};
 use crate::fields::{Fields, Wrong};
+use crate::input::MOST_BYTES;
 
 /// Records of a file with one record per line, and the report on reading it.
 pub(crate) type Records<T> = (Vec<T>, LogReport);
@@ -17,7 +18,10 @@ pub(crate) fn read_records<T>(
     what: &str,
     parse: impl Fn(&mut Fields<'_>) -> Result<T, Wrong>,
 ) -> Result<Records<T>, LogError> {
-    let (records, report) = records(open(path)?, parse);
+    let (records, report) = records(open(path, MOST_BYTES)?, parse);
+    if report.count(LogTrouble::TooLarge) > 0 {
+        return Err(report.nothing(path, "too much text; give it in parts"));
+    }
     match records.is_empty() {
         true => Err(report.nothing(path, &format!("no line of `{what}`"))),
         false => Ok((records, report)),
@@ -47,8 +51,6 @@ pub(crate) fn records<T>(
 fn content<'a>(line: &Line<'a>) -> Result<Option<&'a str>, Wrong> {
     match line {
         Line::Text(text) => Ok((!text.is_empty() && !text.starts_with('#')).then_some(*text)),
-        Line::NoText => Err((LogTrouble::NoText, String::new())),
-        Line::TooLong => Err((LogTrouble::TooLong, String::new())),
-        Line::Lost(kind) => Err((LogTrouble::EndsEarly, kind.to_string())),
+        line => Err(line.trouble()),
     }
 }

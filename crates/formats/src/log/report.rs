@@ -74,6 +74,8 @@ pub enum LogTrouble {
     ClockJump,
     /// The rest of the file cannot be read. The part before is used.
     EndsEarly,
+    /// The file holds more text than may be read.
+    TooLarge,
     /// The line is of an unknown kind. Left out.
     UnknownKind,
     /// A scan at a time without odometry. Left out.
@@ -175,6 +177,7 @@ impl fmt::Display for LogTrouble {
             Self::BackInTime => "times before those of the line above, used in the file's order",
             Self::ClockJump => "jumps of the clock by more than a minute, used",
             Self::EndsEarly => "the file cannot be read to its end; the lines before are used",
+            Self::TooLarge => "the file holds more text than may be read",
             Self::UnknownKind => "lines of a kind that is not known, left out",
             Self::NoOdometry => "scans of times without odometry, left out",
             Self::NoMount => {

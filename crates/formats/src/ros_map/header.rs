@@ -2,6 +2,7 @@ use thiserror::Error;
 use tolman_geom::Point;
 
 use super::MapCell;
+use crate::input;
 
 /// Contents of a map's YAML file.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,7 +76,7 @@ impl RosMapHeader {
     /// # Errors
     /// [`RosMapHeaderError`] with the line at fault.
     pub fn parse(text: &str) -> Result<Self, RosMapHeaderError> {
-        let entries = Entries::parse(text)?;
+        let entries = Entries::parse(input::without_mark(text))?;
         entries.check_mode()?;
         Ok(Self {
             image: entries.image()?,
@@ -85,7 +86,7 @@ impl RosMapHeader {
             origin: entries.origin()?,
             negate: entries.negate()?,
             occupied_thresh: entries.share("occupied_thresh")?,
-            free_thresh: entries.share("free_thresh")?,
+            free_thresh: entries.free_thresh()?,
         })
     }
 
@@ -176,12 +177,23 @@ impl Entries {
         })
     }
 
+    fn free_thresh(&self) -> Result<f64, RosMapHeaderError> {
+        let occupied = self.share("occupied_thresh")?;
+        let free = self.share("free_thresh")?;
+        match free < occupied {
+            true => Ok(free),
+            false => {
+                let entry = self.find("free_thresh")?;
+                Err(entry.wrong("free_thresh", "a number below `occupied_thresh`"))
+            }
+        }
+    }
+
     fn origin(&self) -> Result<Point, RosMapHeaderError> {
         let entry = self.find("origin")?;
         let items = entry.value.trim_matches(['[', ']', ',', ' ']).split(',');
         let numbers: Option<Vec<f64>> = items.map(number).collect();
         match numbers.as_deref() {
-            Some([x, y]) => Ok(Point::new(*x, *y)),
             Some([x, y, yaw]) if yaw.abs() < 1e-9 => Ok(Point::new(*x, *y)),
             Some([_, _, yaw]) => Err(RosMapHeaderError::Turned {
                 line: entry.line,

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use proptest::prelude::*;
+use tolman_formats::input::MOST_BYTES;
 use tolman_formats::{
     LogEntry, LogReader, LogReport, LogScan, LogTrouble, ReadRelations, ReadTrajectory, tum,
 };
@@ -120,7 +121,7 @@ fn a_packed_log_that_was_cut_is_used_as_far_as_it_goes() {
     let packed = encoder.finish().unwrap();
     for (name, share, all) in [("whole.gz", 1, true), ("cut.gz", 2, false)] {
         let path = temporary(name, &packed[..packed.len() / share]);
-        let mut reader = LogReader::open(&path).unwrap();
+        let mut reader = LogReader::open(&path, MOST_BYTES).unwrap();
         let count = reader.by_ref().count();
         assert_eq!(count == 2000, all, "{count}");
         assert!(count > 100);
@@ -138,7 +139,7 @@ fn a_file_of_something_else_is_refused_by_name() {
     );
     let error = ReadTrajectory::open(&path).unwrap_err().to_string();
     assert!(error.contains("qx"), "{error}");
-    let error = LogReader::open(&path.with_file_name("nowhere"))
+    let error = LogReader::open(&path.with_file_name("nowhere"), MOST_BYTES)
         .err()
         .unwrap();
     assert!(error.to_string().contains("nowhere"));

@@ -10,6 +10,7 @@ use std::process::Command;
 use mcap::Writer;
 use mcap::records::MessageHeader;
 use serde::Serialize;
+use tolman_formats::input::MOST_BYTES;
 use tolman_formats::{LogEntry, LogScan, LogTrouble, RosBag, is_mcap};
 
 #[derive(Serialize)]
@@ -259,7 +260,7 @@ fn what_others_have_written_is_read() {
     assert!(run(python, &["-c", WRITE]));
     let path = folder.join("drive.mcap");
     assert!(is_mcap(&path));
-    let bag = RosBag::read(&path).unwrap();
+    let bag = RosBag::read(&path, MOST_BYTES).unwrap();
     let scans = scans(&bag);
     assert_eq!(scans.len(), 3, "{:?}", bag.report);
     assert_eq!(scans[2].odometry.position.x, 1.0);

@@ -64,7 +64,7 @@ impl MazeSet {
         for path in &files {
             let text = match input::text(path) {
                 Ok(text) => text,
-                Err(SourceError::NoText { .. } | SourceError::ByteOrderMark { .. }) => {
+                Err(SourceError::NoText { .. } | SourceError::Utf16) => {
                     set.left_out.no_maze += 1;
                     continue;
                 }

@@ -6,7 +6,8 @@ use tolman_arena::registry::LogMapper;
 use tolman_experiment::BoxError;
 #[cfg(feature = "mcap")]
 use tolman_formats::RosBag;
-use tolman_formats::{LogEntry, LogReader, LogReport, LogScan, is_mcap};
+use tolman_formats::input::MOST_BYTES;
+use tolman_formats::{LogEntry, LogReader, LogReport, LogScan, LogTrouble, is_mcap};
 use tolman_geom::Pose;
 use tolman_maps::scan_matching::{ScanMatching, ScanMatchingConfig, ScanStep};
 use tolman_robot::{MapView, Mapper, TimedPose, Trajectory};
@@ -66,12 +67,21 @@ impl RobotLog {
     /// # Errors
     /// If there is no such file, it has no scan, or it is a bag and the feature `mcap` is off.
     pub fn read(path: &Path) -> Result<Self, BoxError> {
+        Self::read_at_most(path, MOST_BYTES)
+    }
+
+    /// Reads a log as [`read`](Self::read), with `most` bytes of text or messages.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read), and if there is more.
+    pub fn read_at_most(path: &Path, most: u64) -> Result<Self, BoxError> {
         if is_mcap(path) {
-            return Self::read_bag(path);
+            return Self::read_bag(path, most);
         }
-        let mut reader = LogReader::open(path)?;
+        let mut reader = LogReader::open(path, most)?;
         let log = Self::of(&mut reader);
         let report = reader.report().clone();
+        refuse_too_large(&report, path, most)?;
         if log.is_empty() {
             let told = report.sentences().join("; ");
             let path = path.display();
@@ -81,8 +91,9 @@ impl RobotLog {
     }
 
     #[cfg(feature = "mcap")]
-    fn read_bag(path: &Path) -> Result<Self, BoxError> {
-        let RosBag { entries, report } = RosBag::read(path)?;
+    fn read_bag(path: &Path, most: u64) -> Result<Self, BoxError> {
+        let RosBag { entries, report } = RosBag::read(path, most)?;
+        refuse_too_large(&report, path, most)?;
         let scans = Self::of(entries.into_iter());
         if scans.is_empty() {
             let told = report.sentences().join("; ");
@@ -92,7 +103,7 @@ impl RobotLog {
     }
 
     #[cfg(not(feature = "mcap"))]
-    fn read_bag(path: &Path) -> Result<Self, BoxError> {
+    fn read_bag(path: &Path, _: u64) -> Result<Self, BoxError> {
         let path = path.display();
         Err(format!("{path} is a bag of ROS 2; build with `--features mcap` to read it").into())
     }
@@ -226,6 +237,16 @@ impl RobotLog {
             time: scan.time,
             pose: *pose,
         }))
+    }
+}
+
+fn refuse_too_large(report: &LogReport, path: &Path, most: u64) -> Result<(), BoxError> {
+    match report.count(LogTrouble::TooLarge) {
+        0 => Ok(()),
+        _ => {
+            let (path, most) = (path.display(), most >> 20);
+            Err(format!("{path}: it holds more than {most} MiB; give it in parts, or raise this by --most-mib").into())
+        }
     }
 }
 

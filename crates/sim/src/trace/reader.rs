@@ -69,6 +69,10 @@ impl<M: Recordable, R: BufRead> Reader<M, R> {
             });
         }
         let header: Header<M> = parse(&first, 1)?;
+        if header.step_us == 0 {
+            let source = "`step_us`, the length of a step, is 0; record the trace again".into();
+            return Err(ReplayError::Refused { line: 1, source });
+        }
         let world = World::from_json(&header.world.to_string())?;
         Ok(Self {
             lines,

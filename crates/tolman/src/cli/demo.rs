@@ -12,6 +12,7 @@ use tolman_replay::{Chapter, Mark, Marks, Replay, moving_picture};
 
 use super::live::{Live, Scene};
 use super::looks::LIVE;
+use super::outputs::{self, Output};
 use super::replay_file::{self, Overwrite};
 use super::{App, Failure, OrBadInput, Result, file, maze};
 
@@ -43,14 +44,14 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "N")]
     seed: Option<u64>,
     /// Replay file to write
-    #[arg(long, value_name = "FILE")]
-    out: Option<PathBuf>,
+    #[arg(long, value_name = "FILE", value_parser = outputs::file(outputs::REPLAYS))]
+    out: Option<Output>,
     /// Overwrite the file even if it is not a replay
     #[arg(long, requires = "out")]
     force: bool,
     /// Also write an animated SVG
-    #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
+    #[arg(long, value_name = "FILE", value_parser = outputs::file(&["svg"]))]
+    svg: Option<Output>,
     #[arg(long, help = LIVE)]
     live: bool,
 }
@@ -63,7 +64,7 @@ const SMALL: &str = include_str!("../../mazes/star.maze");
 pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -> Result {
     let overwrite = Overwrite::if_forced(arguments.force);
     let path = match &arguments.out {
-        Some(path) => path.clone(),
+        Some(path) => path.to_path_buf(),
         None => free_name()?,
     };
     replay_file::check(&path, overwrite)?;

@@ -108,6 +108,7 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
         ended,
         told,
         has_arrived,
+        saved,
     } = send(
         &mut *outing,
         ARRIVE,
@@ -117,6 +118,7 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
         keeper,
         |_, _| {},
     )?;
+    saved.remove();
     let json = || {
         json!({
             "system": system.name(),

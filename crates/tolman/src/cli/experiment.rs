@@ -14,6 +14,8 @@ use tolman_experiment::{
 };
 
 use super::kind::Kind;
+use super::outputs::{self, Output};
+use super::stdout::write_coloured;
 use super::{App, Failure, Result, called, ink, interrupt, maze};
 
 /// Runs an experiment, shows its tables beside the paper's, and writes a folder of results; without
@@ -93,12 +95,15 @@ pub(super) struct Choice {
     limit: Option<u32>,
     /// Folder for the results; with --all, the folder that holds one folder per experiment
     /// [default: results/NAME, or results/tour]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    #[arg(long, value_name = "DIR", value_parser = outputs::folder(FILES))]
+    out: Option<Output>,
     /// Play few runs, for a first look
     #[arg(long, requires = "which")]
     quick: bool,
 }
+
+/// Names of files in the folder of results.
+const FILES: &[&str] = &["config.toml", "report.html", "runs.jsonl", "summary.json"];
 
 pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -> Result {
     if arguments.list {
@@ -166,7 +171,8 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
 pub(super) fn show(outcome: &ExperimentOutcome, out: &mut dyn Write) -> Result {
     let tables = tables_as_text(&outcome.analysis, ink());
     let report = outcome.folder.join("report.html");
-    Ok(writeln!(out, "{tables}\nThe report: {}", report.display())?)
+    write_coloured(&tables, out)?;
+    Ok(writeln!(out, "\nThe report: {}", report.display())?)
 }
 
 /// Plays a sample of a folder's runs again and compares every value.
@@ -265,7 +271,7 @@ impl Choice {
             tables: self.tables.clone(),
             rows: self.rows.clone(),
             limit: self.limit,
-            out: self.out.clone(),
+            out: self.out.as_deref().map(Path::to_owned),
             quick: self.quick,
             program: Program::current(app.catalogue.program),
         }

@@ -11,6 +11,7 @@ use anyhow::anyhow;
 use clap::builder::styling::{AnsiColor, Style};
 use tolman_arena::BoxError;
 use tolman_arena::registry::UnknownName;
+use tolman_draw::visible;
 use tolman_experiment::choices;
 
 use super::interrupt::INTERRUPTED;
@@ -97,14 +98,37 @@ impl<T> Unboxed<T> for Result<T, BoxError> {
 pub(super) fn complain(error: &anyhow::Error) {
     let red = Style::new().bold().fg_color(Some(AnsiColor::Red.into()));
     let told = told(error);
+    let told = visible(&told);
+    let told = shortened(&told);
     // If stderr cannot be written, there is no other place to report it.
     let _ = writeln!(anstream::stderr(), "{red}error:{red:#} {told}");
+}
+
+/// Maximum number of digits of a number in a message, those of 1e99.
+const MOST_DIGITS: usize = 100;
+
+/// Returns a message with an exponent in place of most digits of a longer number.
+fn shortened(told: &str) -> String {
+    let is_digit = |c: char| c.is_ascii_digit();
+    let (mut shown, mut rest) = (String::new(), told);
+    while let Some(at) = rest.find(is_digit) {
+        let (before, number) = rest.split_at(at);
+        let end = number.find(|c| !is_digit(c)).unwrap_or(number.len());
+        let (digits, after) = number.split_at(end);
+        shown += before;
+        match digits.parse::<f64>() {
+            Ok(value) if digits.len() > MOST_DIGITS => shown += &format!("{value:e}"),
+            _ => shown += digits,
+        }
+        rest = after;
+    }
+    shown + rest
 }
 
 /// Prints a note on stderr, about something skipped for example.
 pub(super) fn note(what: &str) {
     // If stderr cannot be written, there is no other place to report it.
-    let _ = writeln!(anstream::stderr(), "note: {what}");
+    let _ = writeln!(anstream::stderr(), "note: {}", visible(what));
 }
 
 /// Returns an error and its causes in one line. A cause that the error's own text already contains

@@ -11,7 +11,7 @@ use tolman_sim::{Area, Occupancy, World, Zone};
 
 use super::kind::Kind;
 use super::unfinished::Call;
-use super::{Failure, OrBadInput, Result, maze};
+use super::{Failure, OrBadInput, Result, maze, outputs};
 
 /// The maze or world that robots are sent into.
 #[derive(clap::Args)]
@@ -122,6 +122,9 @@ impl Ground {
 /// Reads a world of either kind.
 fn world(path: &Path) -> Result<World> {
     if is_yaml(path) {
+        if let Ok((_, picture)) = RosMap::header(path) {
+            outputs::reads("world", &picture)?;
+        }
         let read = RosMap::read(path).map_err(Error::from);
         let world = read.and_then(|map| Ok(World::from_occupancy(&occupancy(map))?));
         return world.with_context(|| maze::name(path)).or_bad_input();

@@ -188,6 +188,7 @@ impl Arguments {
             ended,
             told,
             has_arrived,
+            ..
         } = pursued;
         let driven = path_length(outing.path());
         let shortest = outing

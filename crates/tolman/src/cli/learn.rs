@@ -14,6 +14,7 @@ use tolman_robot::{Landmark, Standing, Task};
 
 use super::looks::Looks;
 use super::map::{of_text, text};
+use super::outputs::{self, Output};
 use super::send::{ARRIVE, Pursued, check_origin, send};
 use super::sent_out::SentOut;
 use super::unfinished::{Former, FormerMap, Keeper};
@@ -56,12 +57,12 @@ pub(super) struct Arguments {
     #[arg(long, requires = "from")]
     anyway: bool,
     /// Map file to write
-    #[arg(long, value_name = "FILE")]
-    out: PathBuf,
+    #[arg(long, value_name = "FILE", value_parser = outputs::file(&["json"]))]
+    out: Output,
     /// Save the run to this file once a second, to continue it after an interruption [default: the
     /// name of --out with .unfinished appended]
-    #[arg(long, value_name = "FILE")]
-    unfinished: Option<PathBuf>,
+    #[arg(long, value_name = "FILE", value_parser = outputs::file(&["unfinished", "json"]))]
+    unfinished: Option<Output>,
     #[command(flatten)]
     looks: Looks,
 }
@@ -103,11 +104,15 @@ impl Arguments {
         let call = call
             .with("--until", until.map(|(word, ..)| word))
             .with("--anyway", self.anyway.then_some("given"));
-        let path = self.unfinished.clone().unwrap_or_else(|| {
-            let mut name = self.out.clone().into_os_string();
+        let path = self.unfinished.as_deref().map(Path::to_owned);
+        let path = path.unwrap_or_else(|| {
+            let mut name = self.out.as_os_str().to_owned();
             name.push(".unfinished");
             name.into()
         });
+        if self.unfinished.is_none() {
+            outputs::note("unfinished", &path)?;
+        }
         let map = from.map(|map| FormerMap {
             name: map.name.clone().into(),
             text: map.text.clone(),
@@ -169,9 +174,12 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     if let (Err(Failure::Interrupted(_)), Some(text)) = (&pursued, &text) {
         file::write(&arguments.out, text)?;
     }
-    let Pursued { ended, told, .. } = pursued?;
+    let Pursued {
+        ended, told, saved, ..
+    } = pursued?;
     let own = Claim::complaint(&ended.end, task, &*outing);
     let Some(text) = text else {
+        saved.remove();
         let why = own.unwrap_or_else(|| "it keeps none".to_owned());
         return Err(Failure::Failed(anyhow!(
             "no map of {} was learned: {why}",
@@ -180,7 +188,10 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     };
     let map = of_text(&arguments.out, &text)?;
     let map = system.map(&map).unboxed()?;
-    file::write(&arguments.out, &text)?;
+    if let Err(Failure::Failed(error)) = file::write(&arguments.out, &text) {
+        return Err(Failure::Failed(anyhow!("{error:#}; {}", saved.told())));
+    }
+    saved.remove();
     let own = match system.facts().tried && task == Task::Explore && own.is_none() {
         true => tried(system, &of_text(&arguments.out, &text)?, &setup)?,
         false => own,

@@ -1,10 +1,11 @@
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use anyhow::{Error, anyhow};
 use serde_json::Value;
 use tolman_replay::Replay;
 
+use super::outputs::{self, Output};
 use super::replay_file::{self, Overwrite};
 use super::{Failure, Result, file};
 
@@ -23,17 +24,17 @@ pub(super) struct Looks {
     #[arg(long, help = LIVE)]
     pub(super) live: bool,
     /// Draw the robot's path over the maze or the world
-    #[arg(long, value_name = "FILE")]
-    pub(super) svg: Option<PathBuf>,
+    #[arg(long, value_name = "FILE", value_parser = outputs::file(&["svg"]))]
+    pub(super) svg: Option<Output>,
     /// Write a trace of the run, as JSON lines: the world and the robot, then command, outcome and
     /// readings of every step
-    #[arg(long, value_name = "FILE")]
-    pub(super) trace: Option<PathBuf>,
+    #[arg(long, value_name = "FILE", value_parser = outputs::file(&["jsonl", "json", "ndjson"]))]
+    pub(super) trace: Option<Output>,
     /// Write a replay: one HTML file that plays the run in any browser. If the name ends in .mcap
     /// and the feature `mcap` is on, the file is for Foxglove. The command tolman-rerun writes
     /// .rrd, for Rerun
-    #[arg(long, value_name = "FILE")]
-    pub(super) replay: Option<PathBuf>,
+    #[arg(long, value_name = "FILE", value_parser = outputs::file(outputs::REPLAYS))]
+    pub(super) replay: Option<Output>,
     /// Overwrite the replay's file even if it is not a replay
     #[arg(long, requires = "replay")]
     pub(super) force: bool,

@@ -2,12 +2,12 @@
 
 use std::fs;
 use std::io::Write;
-use std::path::PathBuf;
 
 use anyhow::Context;
 use clap::CommandFactory;
 
 use super::Result;
+use super::outputs::{self, Output};
 
 /// Writes the manual page, or the pages of all verbs into a folder
 #[derive(clap::Args)]
@@ -17,15 +17,15 @@ Examples:
   tolman man --out ~/.local/share/man/man1")]
 pub(super) struct Arguments {
     /// Folder to write tolman.1, tolman-run.1, … to
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    #[arg(long, value_name = "DIR", value_parser = outputs::folder(&[]))]
+    out: Option<Output>,
 }
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     let command = super::Arguments::command();
     match &arguments.out {
-        Some(folder) => Ok(fs::create_dir_all(folder)
-            .and_then(|()| clap_mangen::generate_to(command, folder))
+        Some(folder) => Ok(fs::create_dir_all(&**folder)
+            .and_then(|()| clap_mangen::generate_to(command, &**folder))
             .with_context(|| format!("cannot write the pages into {}", folder.display()))?),
         None => Ok(clap_mangen::Man::new(command).render(out)?),
     }

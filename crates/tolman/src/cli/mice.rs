@@ -71,49 +71,68 @@ pub(super) fn send_all<'a, T: MouseResult>(
     draw: impl FnOnce(&[(&Path, T)], &mut dyn Write) -> Result,
 ) -> Result {
     // A maze that no mouse can run in must not stop the others.
-    let sent = maze::each(mazes, jobs, |file, maze| {
-        Ok(send(file, maze).map(|(tried, way)| (file, tried, way)))
+    let work = |file, maze| Ok(send(file, maze).map(|(tried, way)| (file, tried, way)));
+    let mut told = Vec::new();
+    maze::each(mazes, jobs, looks, work, |sent| {
+        match sent {
+            Ok((file, tried, way)) => {
+                tell(file, &tried, way, looks, out)?;
+                told.push((file, tried));
+            }
+            Err(failure) => unsound.push(failure),
+        }
+        Ok(())
     })?;
-    let told = tell(unsound.sift(sent), looks, out, draw)?;
+    summarize(&told, looks, out, draw)?;
     unsound.complain(told.len())?;
     all_solved(&told)
 }
 
-/// Tells the results, each with its file and the mouse's way if it is shown, maze by maze.
+/// Tells the result in a maze at once, so that it stays if the others are interrupted. Shows the
+/// mouse's way, if there is one.
 ///
 /// # Errors
 /// If a file cannot be written.
-pub(super) fn tell<'a, T: MouseResult>(
-    tried: impl IntoIterator<Item = (&'a Path, T, Option<Way>)>,
+pub(super) fn tell(
+    file: &Path,
+    tried: &impl MouseResult,
+    way: Option<Way>,
+    looks: &Looks,
+    out: &mut dyn Write,
+) -> Result {
+    let (name, outcome) = (maze::name(file), tried.outcome());
+    if let Some(way) = way {
+        way.show(looks, &outcome)?;
+    }
+    if looks.json {
+        let mut line = tried.json()?;
+        line["maze"] = json!(name);
+        writeln!(out, "{line}")?;
+    } else {
+        writeln!(out, "{name}: {outcome}")?;
+    }
+    Ok(out.flush()?)
+}
+
+/// Tells of all results together.
+///
+/// # Errors
+/// If a file cannot be written.
+pub(super) fn summarize<T: MouseResult>(
+    told: &[(&Path, T)],
     looks: &Looks,
     out: &mut dyn Write,
     draw: impl FnOnce(&[(&Path, T)], &mut dyn Write) -> Result,
-) -> Result<Vec<(&'a Path, T)>> {
-    let mut told = Vec::new();
-    for (file, tried, way) in tried {
-        let (name, outcome) = (maze::name(file), tried.outcome());
-        if let Some(way) = way {
-            way.show(looks, &outcome)?;
-        }
-        if looks.json {
-            let mut line = tried.json()?;
-            line["maze"] = json!(name);
-            writeln!(out, "{line}")?;
-        } else {
-            writeln!(out, "{name}: {outcome}")?;
-        }
-        told.push((file, tried));
-    }
+) -> Result {
     if !looks.json {
-        draw(&told, out)?;
+        draw(told, out)?;
         if told.len() > 1 {
-            writeln!(out, "{}", T::summary(&told))?;
+            writeln!(out, "{}", T::summary(told))?;
         }
         looks.tell_replay(out)?;
     }
     // Results come before complaints, even if both streams go to one place.
-    out.flush()?;
-    Ok(told)
+    Ok(out.flush()?)
 }
 
 /// Fails if the mouse did not solve all mazes. The failure names a single unsolved maze.

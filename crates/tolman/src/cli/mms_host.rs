@@ -16,7 +16,7 @@ use tolman_maze::{Cell, Direction, Grid, Maze};
 
 use super::looks::Looks;
 use super::maze::Collection;
-use super::mice::{MouseResult, all_solved, tell};
+use super::mice::{MouseResult, all_solved, summarize, tell};
 use super::mouse::{Came, PITCH, Way, WayStep, half_cells};
 use super::{Failure, OrBadInput, Result, interrupt, keep, maze};
 
@@ -87,7 +87,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
         },
         stop: &stop,
     };
-    let hosted = maze::each(&mazes, arguments.jobs, |file, maze| {
+    let work = |file, maze| {
         if stop.load(Ordering::Relaxed) {
             return Ok(None);
         }
@@ -99,9 +99,16 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
         });
         let way = watched.map(|watched| watched.way);
         Ok(Some((file, hosted.or_bad_input()?, way)))
+    };
+    let mut tried = Vec::new();
+    maze::each(&mazes, arguments.jobs, looks, work, |hosted| {
+        if let Some((file, hosted, way)) = hosted {
+            tell(file, &hosted, way, looks, out)?;
+            tried.push((file, hosted));
+        }
+        Ok(())
     })?;
-    let tried = tell(hosted.into_iter().flatten(), looks, out, |_, _| Ok(()))?;
-    unsound.complain(mazes.len())?;
+    summarize(&tried, looks, out, |_, _| Ok(()))?;
     if stop.load(Ordering::Relaxed) {
         let interrupted = |(_, hosted): &&(&Path, Hosted)| hosted.ended != MouseExit::Interrupted;
         let whole = tried.iter().filter(interrupted).count();
@@ -110,6 +117,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
             mazes.len()
         )));
     }
+    unsound.complain(mazes.len())?;
     all_solved(&tried)
 }
 
@@ -120,7 +128,7 @@ impl Arguments {
             .filter(|time| (Duration::from_millis(1)..=LONGEST).contains(time))
             .ok_or_else(|| {
                 anyhow!(
-                    "--time-limit {}: give seconds, from 0.001 to {}",
+                    "--time-limit {:?}: give seconds, from 0.001 to {}",
                     self.time_limit,
                     LONGEST.as_secs()
                 )
@@ -234,14 +242,14 @@ impl MouseResult for Hosted {
     }
 
     fn summary(hosted: &[(&Path, Self)]) -> String {
-        let count = hosted.len() as f32;
-        let mean = |score: fn(&Self) -> f32| {
-            hosted.iter().map(|(_, hosted)| score(hosted)).sum::<f32>() / count
-        };
-        let solved = hosted.iter().filter(|(_, hosted)| hosted.solved).count();
+        let whole = hosted.iter().map(|(_, hosted)| hosted);
+        let whole = whole.filter(|hosted| hosted.ended != MouseExit::Interrupted);
+        let count = whole.clone().count();
+        let mean =
+            |score: fn(&Self) -> f32| whole.clone().map(score).sum::<f32>() / count.max(1) as f32;
+        let solved = whole.clone().filter(|hosted| hosted.solved).count();
         format!(
-            "{solved} of {} solved, mean score {:.1} ({:.1} in cells)",
-            hosted.len(),
+            "{solved} of {count} solved, mean score {:.1} ({:.1} in cells)",
             mean(|hosted| hosted.score),
             mean(|hosted| hosted.score_in_cells)
         )

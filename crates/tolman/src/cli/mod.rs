@@ -29,6 +29,7 @@ mod merge;
 mod mice;
 mod mms_host;
 mod mouse;
+mod outputs;
 mod picture;
 mod pitch;
 mod race;
@@ -49,7 +50,7 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use anyhow::anyhow;
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use failure::{Failure, OrBadInput, Result, Unboxed, unknown};
 use stdout::{Stdout, ink};
 use tolman_arena::registry::{MapText, Registry, RobotEntry, SystemEntry};
@@ -230,13 +231,15 @@ pub fn run(catalogue: &Catalogue, build: &Build) -> ExitCode {
     replay_file::set_formats(&catalogue.replay_formats);
     // A second call finds the registry of the first, as it does with program and formats.
     let _ = catalogue.registry.clone().install();
-    let arguments = Arguments::parse();
+    let matches = Arguments::command().get_matches();
+    let arguments = Arguments::from_arg_matches(&matches).unwrap_or_else(|error| error.exit());
     let mut out = Stdout::lock();
     let app = App {
         catalogue: catalogue.clone(),
         build: build.clone(),
     };
-    let done = arguments.verb.carry_out(&app, &mut out);
+    let done = outputs::check(&matches);
+    let done = done.and_then(|()| arguments.verb.carry_out(&app, &mut out));
     // Results come before the failure, even if both streams go to one place.
     let written = out.flush();
     let done = done.and_then(|()| Ok(written?));

@@ -12,6 +12,7 @@ use tolman_arena::gngslam::{DataSet, Pitch, PlaceScorer, gather};
 use tolman_draw::{Figure, FloorPlan, GraphNode, GraphPicture, NodeMark, Series};
 use tolman_maps::place_map::ImageForm;
 
+use super::outputs::{self, Output};
 use super::share::share;
 use super::{Failure, OrBadInput, Result, Unboxed, file};
 
@@ -39,8 +40,8 @@ pub(super) struct World {
     #[arg(value_name = "ARENA")]
     name: String,
     /// File to write, instead of standard output
-    #[arg(long, value_name = "FILE")]
-    out: Option<PathBuf>,
+    #[arg(long, value_name = "FILE", value_parser = outputs::file(&["json"]))]
+    out: Option<Output>,
 }
 
 /// Lets a Pioneer 2-DX wander in an arena, and writes its records of places with the true poses
@@ -62,8 +63,8 @@ pub(super) struct Gather {
     #[arg(long, value_name = "SHARE", default_value = "0", value_parser = share)]
     calibration: f64,
     /// File to write: one line of JSON about the data set, then one per record
-    #[arg(long, value_name = "FILE")]
-    out: PathBuf,
+    #[arg(long, value_name = "FILE", value_parser = outputs::file(&["jsonl", "json", "ndjson"]))]
+    out: Output,
 }
 
 /// Describes a data set, and draws the places of its records
@@ -76,8 +77,8 @@ pub(super) struct Show {
     /// Data set, written by `tolman pitch gather`
     file: PathBuf,
     /// Draw the places of the records
-    #[arg(long, value_name = "FILE")]
-    svg: Option<PathBuf>,
+    #[arg(long, value_name = "FILE", value_parser = outputs::file(&["svg"]))]
+    svg: Option<Output>,
     /// Write the figures as JSON
     #[arg(long)]
     json: bool,

@@ -9,6 +9,7 @@ use tolman_replay::{Portrait, Replay, Trace, TraceComparison};
 use tolman_sim::robots::{CameraPioneer, Epuck, LaserPioneer, Pioneer2dx};
 
 use super::kind::Kind;
+use super::outputs::{self, Output};
 use super::replay_file::{self, Overwrite};
 use super::{Failure, OrBadInput, Result, maze};
 
@@ -29,8 +30,8 @@ pub(super) struct Arguments {
     /// File to write [default: the first trace's name with .html]. If the name ends in .mcap and
     /// the feature `mcap` is on, the file is for Foxglove. The command tolman-rerun writes .rrd,
     /// for Rerun
-    #[arg(long, value_name = "FILE")]
-    out: Option<PathBuf>,
+    #[arg(long, value_name = "FILE", value_parser = outputs::file(outputs::REPLAYS))]
+    out: Option<Output>,
     /// Overwrite the file even if it is not a replay
     #[arg(long)]
     force: bool,
@@ -39,11 +40,8 @@ pub(super) struct Arguments {
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     let overwrite = Overwrite::if_forced(arguments.force);
     let path = arguments.path()?;
-    if arguments.traces.contains(&path) {
-        return Err(Failure::BadInput(anyhow!(
-            "{} is the trace itself; give the replay another name with --out",
-            path.display()
-        )));
+    if arguments.out.is_none() {
+        outputs::note("out", &path)?;
     }
     replay_file::check(&path, overwrite)?;
     let mut texts = Vec::new();
@@ -76,7 +74,7 @@ impl Arguments {
     /// Returns the path of the replay.
     fn path(&self) -> Result<PathBuf> {
         match (&self.out, self.traces.first()) {
-            (Some(path), _) => Ok(path.clone()),
+            (Some(path), _) => Ok(path.to_path_buf()),
             (None, Some(first)) if !maze::is_stdin(first) => Ok(first.with_extension("html")),
             _ => Err(Failure::BadInput(anyhow!(
                 "a trace from standard input has no name; name the replay with --out"

@@ -35,6 +35,11 @@ pub(super) fn set_formats(formats: &[ReplayFormat]) {
     let _ = FORMATS.set(formats.to_vec());
 }
 
+/// Returns whether this program writes replays into files with this ending, beside HTML.
+pub(super) fn has_format(ending: &str) -> bool {
+    formats().iter().any(|format| format.extension == ending)
+}
+
 fn formats() -> &'static [ReplayFormat] {
     FORMATS.get().map_or(&[], Vec::as_slice)
 }
@@ -100,12 +105,10 @@ fn refuse_unknown(path: &Path) -> Result {
     let mut elsewhere = ELSEWHERE.iter();
     let asked = elsewhere.find(|(extension, _)| ends_in(path, extension));
     match asked {
-        Some((extension, remedy)) if !formats().iter().any(|have| have.extension == *extension) => {
-            Err(Failure::BadInput(anyhow!(
-                "{}: this program writes no .{extension}: {remedy}, or name a file that ends in .html",
-                path.display()
-            )))
-        }
+        Some((extension, remedy)) if !has_format(extension) => Err(Failure::BadInput(anyhow!(
+            "{}: this program writes no .{extension}: {remedy}, or name a file that ends in .html",
+            path.display()
+        ))),
         _ => Ok(()),
     }
 }

@@ -123,12 +123,12 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     doing.clear();
     let told = told(word, &episode);
     live.close(&told)?;
-    match broken_off {
+    let saved = match broken_off {
         // The interrupted action may have led to the goal all the same.
         Some(Failure::Interrupted(_)) if episode.reached => keeper.finish()?,
         Some(failure) => return Err(failure),
         None => keeper.finish()?,
-    }
+    };
     looks.write(
         || {
             let (world, robot) = (course.world.clone(), LaserPioneer::new(robot)?);
@@ -141,6 +141,7 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
             replay
         },
     )?;
+    saved.remove();
     let json = || {
         json!({
             "brain": word,

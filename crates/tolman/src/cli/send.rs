@@ -11,7 +11,7 @@ use tolman_robot::{Goal, Landmark, Standing, Task};
 use super::bar::Doing;
 use super::live::{Live, Scene};
 use super::looks::Looks;
-use super::unfinished::{Done, Keeper};
+use super::unfinished::{Done, Keeper, Saved};
 use super::{Failure, Result, Unboxed, interrupt, picture};
 use tolman_arena::registry::{MapText, Setup, slug};
 use tolman_film::Film;
@@ -26,6 +26,8 @@ pub(super) struct Pursued {
     pub(super) told: String,
     /// Whether the robot is at the goal.
     pub(super) has_arrived: bool,
+    /// Files of the run, to be removed once its results are written.
+    pub(super) saved: Saved,
 }
 
 /// Lets a system pursue a task to its end, shows it, and writes the requested files. `keeper` saves
@@ -87,10 +89,10 @@ pub(super) fn send(
         .with_context(|| format!("{word} broke off after {} steps", outing.steps()))?;
     let told = told(&ended, outing, word);
     live.close(&told)?;
-    match broken_off {
+    let saved = match broken_off {
         Some(failure) => return Err(failure),
         None => keeper.finish()?,
-    }
+    };
     looks.write(
         || outing.trace().unboxed(),
         || picture::of(outing.course(), outing.path(), &told),
@@ -106,6 +108,7 @@ pub(super) fn send(
         ended,
         told,
         has_arrived,
+        saved,
     })
 }
 

@@ -20,6 +20,7 @@ use tolman_arena::BoxError;
 use tolman_geom::Pose;
 
 use super::kind::Kind;
+use super::outputs::{self, Output};
 use super::{Failure, OrBadInput, Result, Unboxed, called, file};
 
 /// Options to save and continue an interrupted run, for verbs that save nothing else.
@@ -30,8 +31,8 @@ pub(super) struct GoingOn {
     from: Option<PathBuf>,
     /// Save the run to this file once a second, to continue it after an interruption. Without this
     /// option, only Ctrl-C saves it, to drive.unfinished or run.unfinished
-    #[arg(long, value_name = "FILE")]
-    unfinished: Option<PathBuf>,
+    #[arg(long, value_name = "FILE", value_parser = outputs::file(&["unfinished", "json"]))]
+    unfinished: Option<Output>,
 }
 
 impl GoingOn {
@@ -41,8 +42,11 @@ impl GoingOn {
     /// Bad input if there is no run to continue.
     pub(super) fn keeper(&self, call: Call) -> Result<Keeper> {
         let verb = call.verb();
-        let path = self.unfinished.clone();
+        let path = self.unfinished.as_deref().map(Path::to_owned);
         let path = path.unwrap_or_else(|| PathBuf::from(format!("{verb}.unfinished")));
+        if self.unfinished.is_none() {
+            outputs::note("unfinished", &path)?;
+        }
         let former = self.from.as_deref().map(read).transpose()?;
         let keeper = Keeper::new(path, call, former)?;
         Ok(keeper.saving(match self.unfinished {
@@ -339,19 +343,15 @@ impl Keeper {
         })
     }
 
-    /// Removes the files of a run that has ended.
+    /// Ends the run, and returns the files in which it is saved.
     ///
     /// # Errors
     /// If it ended before the former run was repeated, so that it is another run.
-    pub(super) fn finish(self) -> Result {
-        if let Some(former) = &self.former {
-            return Err(parted(former));
+    pub(super) fn finish(self) -> Result<Saved> {
+        match &self.former {
+            Some(former) => Err(parted(former)),
+            None => Ok(Saved(self.written)),
         }
-        for path in self.written {
-            // The file may already have been removed.
-            let _ = fs::remove_file(path);
-        }
-        Ok(())
     }
 
     fn checksum(&self, state: &impl Fn() -> State) -> Result<String> {
@@ -359,6 +359,28 @@ impl Keeper {
         let state = state().unboxed()?;
         trail.hash(state.as_bytes());
         Ok(format!("{:016x}", trail.hash))
+    }
+}
+
+/// The files in which a run that has ended is saved. They stay until its results are written.
+#[must_use]
+pub(super) struct Saved(Vec<PathBuf>);
+
+impl Saved {
+    /// Removes the files.
+    pub(super) fn remove(self) {
+        for path in self.0 {
+            // The file may already have been removed.
+            let _ = fs::remove_file(path);
+        }
+    }
+
+    /// Returns what becomes of a run whose results cannot be written.
+    pub(super) fn told(&self) -> String {
+        match self.0.last() {
+            Some(path) => format!("the run is kept; go on with: {}", called::going_on(path)),
+            None => "what was learned is lost; repeat the command with another --out".to_owned(),
+        }
     }
 }
 

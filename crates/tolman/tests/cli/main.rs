@@ -18,6 +18,8 @@ mod helpful;
 #[cfg(unix)]
 mod host;
 #[cfg(unix)]
+mod hostile;
+#[cfg(unix)]
 mod interrupted;
 mod learn;
 #[cfg(unix)]
@@ -29,6 +31,7 @@ mod maze;
 mod mms_host;
 mod mouse;
 mod mslst_better;
+mod outputs;
 mod race;
 mod replay;
 mod run;

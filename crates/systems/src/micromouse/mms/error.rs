@@ -32,11 +32,14 @@ pub enum PlayError {
     /// No way leads to the goal.
     #[error("the mouse has found that no way leads to the goal: open a wall")]
     NoWay,
-    /// The mouse runs into walls that it does not see.
-    #[error("the mouse crashed {crashes} times: walls are not where the simulator says they are")]
-    Crashes {
-        /// Number of crashes.
-        crashes: u32,
+    /// The mouse runs into walls that it does not see, or its reset button is pressed for ever.
+    #[error(
+        "the mouse crashed or was reset {times} times: make walls stand where the simulator says they do, and press \
+         reset less often"
+    )]
+    SentBack {
+        /// Number of crashes and resets.
+        times: u32,
     },
     /// The log cannot be written.
     #[error("the mouse's log cannot be written")]

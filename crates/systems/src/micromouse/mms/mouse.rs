@@ -24,8 +24,8 @@ pub struct Played {
     pub resets: u32,
 }
 
-/// Number of crashes after which a mouse gives up on correcting its map.
-const MOST_CRASHES: u32 = 8;
+/// Number of crashes and resets after which a mouse gives up.
+const MOST_RESETS: u32 = 8;
 
 /// Number of last observations that a crash makes doubtful.
 const DOUBTFUL: usize = 2;
@@ -68,7 +68,6 @@ struct Mouse<const N: usize, R, W, L> {
     /// Best run that could be hoped for at the last planning.
     hoped: Option<Plan>,
     goal: Goal,
-    crashes: u32,
     resets: u32,
 }
 
@@ -97,7 +96,6 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
             at: LatticePose::START,
             hoped: None,
             goal: Goal::Ahead,
-            crashes: 0,
             resets: 0,
         })
     }
@@ -310,13 +308,7 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
                 return self.go_back();
             }
             if self.go(*stand)? == Driven::Crashed {
-                self.crashes += 1;
                 self.say("crashed: back to the start")?;
-                if self.crashes > MOST_CRASHES {
-                    return Err(PlayError::Crashes {
-                        crashes: self.crashes,
-                    });
-                }
                 // One of the walls seen last is not as it seemed, and with it what was planned on
                 // it.
                 self.walls.undo(DOUBTFUL);
@@ -331,7 +323,10 @@ impl<const N: usize, R: BufRead, W: Write, L: Write> Mouse<N, R, W, L> {
         self.link.acknowledged("ackReset")?;
         self.at = LatticePose::START;
         self.resets += 1;
-        Ok(Course::Lost)
+        match self.resets > MOST_RESETS {
+            true => Err(PlayError::SentBack { times: self.resets }),
+            false => Ok(Course::Lost),
+        }
     }
 
     /// Makes one movement: a turn, or a straight.

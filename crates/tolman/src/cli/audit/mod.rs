@@ -8,13 +8,14 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
-use indicatif::ProgressBar;
 use tolman_formats::{G2o, G2oEdge};
 use tolman_maps::audit::{
     Audit, AuditConfig, AuditedClosure, ClosureVerdict, SigmaScale, audit, supported_graph, verify,
 };
 use tolman_papers::real::GraphFile;
 
+use super::bar::busy;
+use super::outputs::{self, Output};
 use super::{Failure, OrBadInput, Result, file};
 use certificates::CertificateFile;
 
@@ -42,8 +43,8 @@ pub(super) struct Arguments {
     #[arg(long)]
     verify: bool,
     /// Folder for the results [default: results/audit/NAME]
-    #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    #[arg(long, value_name = "DIR", value_parser = outputs::folder(FILES))]
+    out: Option<Output>,
     /// Leave undecided closures out of cleaned.g2o as well as refuted ones
     #[arg(long, conflicts_with = "verify")]
     strict: bool,
@@ -75,12 +76,23 @@ struct Audited<'a> {
     audit: Audit,
 }
 
+/// Names of the files in the folder.
+const FILES: &[&str] = &[
+    certificates::NAME,
+    "verdicts.csv",
+    "cleaned.g2o",
+    "audit.html",
+];
+
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     let file = GraphFile::read(&arguments.graph).or_bad_input()?;
     told::left_out(&arguments.graph, &file.file);
     let folder = arguments.folder();
     if arguments.verify {
         return check(&file, &arguments.graph, &folder, out);
+    }
+    if arguments.out.is_none() {
+        outputs::writes("out", &folder)?;
     }
     let audited = arguments.audited(&file)?;
     audited.tell(out)?;
@@ -101,11 +113,11 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
 }
 
 impl Arguments {
-    fn folder(&self) -> PathBuf {
+    fn folder(&self) -> Output {
         self.out.clone().unwrap_or_else(|| {
             let name = self.graph.file_name().unwrap_or_default().to_string_lossy();
             let name = name.trim_end_matches(".gz").trim_end_matches(".g2o");
-            Path::new("results").join("audit").join(name)
+            Output::folder(Path::new("results").join("audit").join(name), FILES)
         })
     }
 
@@ -117,8 +129,7 @@ impl Arguments {
         };
         let mut config = AuditConfig::standard();
         config.sigma_scale = scale;
-        let bar = ProgressBar::new_spinner().with_message("auditing");
-        bar.enable_steady_tick(core::time::Duration::from_millis(100));
+        let bar = busy("auditing".to_owned(), false);
         let audit = audit(&file.graph, &config).or_bad_input();
         bar.finish_and_clear();
         Ok(Audited {

@@ -4,6 +4,7 @@ use core::fmt::Write as _;
 use std::io::{self, Write};
 use std::path::Path;
 
+use tolman_draw::visible;
 use tolman_formats::G2o;
 use tolman_maps::audit::{
     AuditCertificateError, AuditCycle, AuditedClosure, ClosureVerdict, RefutedBy, UndecidedBecause,
@@ -21,11 +22,15 @@ pub(super) fn left_out(path: &Path, file: &G2o) {
     // If stderr cannot be written, there is no other place to report it.
     let mut err = anstream::stderr();
     for fault in file.left_out.iter().take(TOLD) {
-        let _ = writeln!(err, "{path}: {fault}");
+        let _ = writeln!(err, "{}", visible(&format!("{path}: {fault}")));
     }
     if count > 0 {
         let lines = if count == 1 { "line is" } else { "lines are" };
-        let _ = writeln!(err, "{path}: {count} {lines} left out, the rest is used");
+        let _ = writeln!(
+            err,
+            "{}: {count} {lines} left out, the rest is used",
+            visible(&path.to_string())
+        );
     }
 }
 

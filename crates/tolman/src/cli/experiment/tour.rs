@@ -13,6 +13,7 @@ use tolman_experiment::{
 };
 
 use super::{classify, heading};
+use crate::cli::stdout::write_coloured;
 use crate::cli::{App, Result, bar, file, ink, interrupt};
 
 /// Maximum width of the tour's lines, columns.
@@ -45,7 +46,8 @@ pub(super) fn carry_out(app: &App, options: &Options, out: &mut dyn Write) -> Re
             for line in wrapped(&head, WIDTH) {
                 writeln!(out, "{line}")?;
             }
-            writeln!(out, "\n{tables}")?;
+            writeln!(out)?;
+            write_coloured(&format!("{tables}\n"), out)?;
             Ok(out.flush()?)
         })?;
         whole += whole_of(entry, app, outcome.runs.len(), began.elapsed())?;

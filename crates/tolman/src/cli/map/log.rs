@@ -14,6 +14,7 @@ use tolman_robot::MapLink;
 
 use crate::cli::bar::bar;
 use crate::cli::kind::Kind;
+use crate::cli::outputs::{self, Output};
 use crate::cli::replay_file::{self, Overwrite};
 use crate::cli::{App, Failure, OrBadInput, Result, Unboxed, called, file};
 
@@ -43,25 +44,45 @@ pub(super) struct Arguments {
     /// `mcap`)
     #[arg(long, value_name = "FILE", required = true)]
     log: Option<PathBuf>,
+    /// Maximum size of the log, unpacked
+    #[arg(long, value_name = "MIB", default_value_t = input::MOST_BYTES >> 20, value_parser = clap::value_parser!(u64).range(1..=1 << 20))]
+    most_mib: u64,
     /// System that estimates the trajectory; `tolman systems` lists those that map logs
     #[arg(long, value_name = "NAME", default_value = "scan-matching")]
     system: String,
     /// Folder for the results; made if it does not exist
-    #[arg(long, value_name = "DIR", required = true)]
-    out: Option<PathBuf>,
+    #[arg(long, value_name = "DIR", required = true, value_parser = outputs::folder(FILES))]
+    out: Option<Output>,
 }
+
+/// Names of the files in the folder.
+const FILES: &[&str] = &[
+    "trajectory.tum",
+    "odometry.tum",
+    "noted.tum",
+    "places.graphml",
+    "places.json",
+    "places.geojson",
+    "places.dot",
+    "map.yaml",
+    "map.pgm",
+    "map.svg",
+    "report.html",
+    "replay.html",
+];
 
 pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -> Result {
     let Arguments {
         log: Some(path),
         out: Some(folder),
         system,
+        most_mib,
     } = arguments
     else {
         return Err(Failure::BadInput(anyhow!("give --log FILE and --out DIR")));
     };
     let mapper = mapper(app, system)?;
-    let log = RobotLog::read(path)
+    let log = RobotLog::read_at_most(path, most_mib << 20)
         .unboxed()
         .map_err(|error| explain(path, error))
         .or_bad_input()?;

@@ -11,6 +11,7 @@ use tolman_draw::Figure;
 
 use crate::cli::ground::{Ground, required};
 use crate::cli::kind::Kind;
+use crate::cli::outputs::{self, Output};
 use crate::cli::{App, Failure, OrBadInput, Result, Unboxed, file};
 use tolman_arena::registry::{LearnedMap, MapText};
 
@@ -59,8 +60,8 @@ pub(in crate::cli) struct Show {
     #[command(flatten)]
     ground: Ground,
     /// Draw the map over its maze or world, which must be given as well
-    #[arg(long, value_name = "FILE", requires = "ground")]
-    svg: Option<PathBuf>,
+    #[arg(long, value_name = "FILE", requires = "ground", value_parser = outputs::file(&["svg"]))]
+    svg: Option<Output>,
     /// Write the figures as JSON
     #[arg(long)]
     json: bool,

@@ -33,11 +33,10 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
                 } else {
                     writeln!(out, "{summary}")?;
                 }
+                out.flush()?;
             }
             Err(failure) => unsound.push(failure),
         }
     }
-    // Valid mazes come before the complaints, even if both streams go to one place.
-    out.flush()?;
     unsound.complain(sound)
 }

@@ -1,13 +1,16 @@
 //! The mazes that one argument names, and work on all of them.
 
+use alloc::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use std::sync::mpsc;
 
 use anyhow::{Context, anyhow};
-use indicatif::{ParallelProgressIterator, ProgressBar};
+use indicatif::ProgressBar;
 use rayon::prelude::*;
 use tolman_maze::{Cell, Direction, Maze, MazeFile};
 
 use super::input;
+use crate::cli::bar::busy;
 use crate::cli::looks::Looks;
 use crate::cli::{Failure, Result, failure::note};
 
@@ -65,33 +68,51 @@ fn for_robots(file: &MazeFile) -> Option<&'static str> {
     file.maze.start().is_none().then_some("it marks no start")
 }
 
-/// Calls `work` with each maze, `jobs` at a time or one per core, and shows a progress bar. Returns
-/// the results in the order of the mazes.
+/// Calls `work` with each maze, `jobs` at a time or one per core, and `tell` with its results, in
+/// the order of the mazes and as early as that allows. Shows progress.
 ///
 /// # Errors
-/// The first failure of `work`, or if no threads can be started.
+/// The first failure of `work` or `tell`, or if no threads can be started.
 pub(in crate::cli) fn each<'a, T: Send>(
     mazes: &'a [(PathBuf, Maze)],
     jobs: Option<u16>,
+    looks: &Looks,
     work: impl Fn(&'a Path, &'a Maze) -> Result<T> + Sync,
-) -> Result<Vec<T>> {
+    mut tell: impl FnMut(T) -> Result,
+) -> Result {
     // A single maze may be drawn on the terminal, so it runs on this thread.
     if let [(file, maze)] = mazes {
-        return Ok(vec![work(file, maze)?]);
+        let busy = busy(input::name(file), looks.live);
+        let done = work(file, maze);
+        busy.finish_and_clear();
+        return tell(done?);
     }
     let threads = rayon::ThreadPoolBuilder::new()
         .num_threads(jobs.map_or(0, usize::from))
         .build()
         .context("no threads can be started")?;
     let bar = ProgressBar::new(mazes.len() as u64);
-    threads.install(|| {
-        mazes
-            .par_iter()
-            // Mazes take very different times, and the last must not leave the other cores idle.
-            .with_max_len(1)
-            .progress_with(bar)
-            .map(|(file, maze)| work(file, maze))
-            .collect()
+    let (sender, results) = mpsc::channel();
+    threads.in_place_scope(|scope| {
+        scope.spawn(|_| {
+            // Mazes take very different times, so each goes to the next core that is free. If
+            // nobody receives the results any more, there was a failure.
+            let mazes = mazes.iter().enumerate().par_bridge();
+            let _ = mazes.try_for_each_with(sender, |sender, (number, (file, maze))| {
+                sender.send((number, work(file, maze)))
+            });
+        });
+        let (mut early, mut next) = (BTreeMap::new(), 0);
+        for (number, done) in results {
+            bar.inc(1);
+            early.insert(number, done);
+            while let Some(done) = early.remove(&next) {
+                next += 1;
+                bar.suspend(|| tell(done?))?;
+            }
+        }
+        bar.finish_and_clear();
+        Ok(())
     })
 }
 
@@ -102,18 +123,6 @@ pub(in crate::cli) struct Unsound(Vec<Failure>);
 impl Unsound {
     pub(in crate::cli) fn push(&mut self, failure: Failure) {
         self.0.push(failure);
-    }
-
-    /// Keeps the failures, and returns the other results.
-    pub(in crate::cli) fn sift<T>(&mut self, outcomes: Vec<Result<T>>) -> impl Iterator<Item = T> {
-        let sift = |outcome| match outcome {
-            Ok(sound) => Some(sound),
-            Err(failure) => {
-                self.push(failure);
-                None
-            }
-        };
-        outcomes.into_iter().filter_map(sift)
     }
 
     /// Returns the number of failures.

@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use super::output::Output;
+use super::output::MazeOutput;
 use super::{Result, input};
 
 /// Writes a maze in another format
@@ -18,7 +18,7 @@ pub(crate) struct Arguments {
     /// Maze file; - reads standard input
     file: PathBuf,
     #[command(flatten)]
-    output: Output,
+    output: MazeOutput,
 }
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {

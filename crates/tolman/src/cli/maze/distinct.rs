@@ -58,6 +58,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
                 told(&least)
             )?;
         }
+        out.flush()?;
     }
     Ok(())
 }

@@ -8,7 +8,7 @@ use rand_chacha::ChaCha8Rng;
 use tolman_arena::family::{Family, FamilySize};
 use tolman_maze::{Braided, Maze, Rooms};
 
-use super::output::Output;
+use super::output::MazeOutput;
 use super::{Failure, OrBadInput, Result};
 use crate::cli::{App, Unboxed};
 
@@ -49,7 +49,7 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "N")]
     extra_doors: Option<u32>,
     #[command(flatten)]
-    output: Output,
+    output: MazeOutput,
 }
 
 #[derive(Clone, Copy)]

@@ -1,7 +1,6 @@
 //! Writes mazes in the format and to the file that the command line names.
 
 use std::io::Write;
-use std::path::PathBuf;
 
 use anyhow::Context;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -9,19 +8,20 @@ use tolman_maze::{Format, MazeFile, write};
 
 use super::{OrBadInput, Result, file};
 use crate::cli::failure::note;
+use crate::cli::outputs::{self, Output};
 
 /// Destination and format of a maze that is written.
 #[derive(clap::Args)]
-pub(super) struct Output {
+pub(super) struct MazeOutput {
     /// Format to write
     #[arg(long, value_name = "FORMAT", default_value = "tolman", value_parser = formats())]
     to: Format,
     /// File to write, instead of standard output
-    #[arg(long, value_name = "FILE")]
-    out: Option<PathBuf>,
+    #[arg(long, value_name = "FILE", value_parser = outputs::file(&["maze", "txt", "num", "map"]))]
+    out: Option<Output>,
 }
 
-impl Output {
+impl MazeOutput {
     pub(super) fn write(&self, maze: &MazeFile, out: &mut dyn Write) -> Result {
         let text = write(maze, self.to)
             .context("cannot write the maze")

@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use anyhow::Context;
+use anyhow::anyhow;
 use tolman_formats::input;
 use tolman_maze::Maze;
 use tolman_planners::speed_run::{SpeedRunConfig, SpeedRunTimes};
@@ -31,11 +31,12 @@ impl Params {
             .map_err(anyhow::Error::from)
             .and_then(|text| Ok(toml::from_str::<SpeedRunConfig>(&text)?))
             .and_then(|config| Ok(SpeedRunTimes::<32>::new(&config).map(|_| config)?));
-        let repair = || {
-            let path = path.display();
-            format!("{path}: `tolman race --template` prints a file that is sound")
+        let repair = |error: anyhow::Error| {
+            let (path, why) = (path.display(), error.to_string());
+            let why = why.trim_end();
+            anyhow!("{path}: {why}; `tolman race --template` prints a file that is sound")
         };
-        Ok(Self(Some(config.with_context(repair).or_bad_input()?)))
+        Ok(Self(Some(config.map_err(repair).or_bad_input()?)))
     }
 
     /// Returns the values with which the mouse drives in this maze.
