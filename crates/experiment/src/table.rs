@@ -5,6 +5,11 @@ use core::fmt;
 use super::{Better, Column, Contrast, Kind, Pairwise, Record, RecordType, Settling};
 use tolman_stats::PValue;
 
+/// Returns a name as it is shown: it may be that of a file, with anything in it.
+fn shown(name: impl Into<String>) -> String {
+    tolman_draw::visible(&name.into()).into_owned()
+}
+
 /// One table of a paper.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
@@ -33,8 +38,8 @@ impl Table {
     /// Returns an empty table whose runs measure a `T`.
     pub fn of<T: Record>(name: impl Into<String>, title: impl Into<String>) -> Self {
         Self {
-            name: name.into(),
-            title: title.into(),
+            name: shown(name),
+            title: shown(title),
             rows: Vec::new(),
             record: RecordType::of::<T>(),
             metrics: Vec::new(),
@@ -249,7 +254,7 @@ impl Row {
     /// Returns a row without values from the paper.
     pub fn new(name: impl Into<String>) -> Self {
         Self {
-            name: name.into(),
+            name: shown(name),
             paper: Vec::new(),
             runs: None,
             is_fixed: false,
