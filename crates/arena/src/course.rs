@@ -20,8 +20,8 @@ use tolman_sim::{CorridorSize, Model, PlaceError, World, WorldError, WorldFileEr
 use tolman_systems::stream;
 
 use self::paving::Paving;
-use crate::Simulated;
 use crate::pioneer::CORRIDOR_WIDTH;
+use crate::{Simulated, taut_way};
 
 pub use terrain::{FreeWorld, Terrain};
 
@@ -337,6 +337,25 @@ impl Course {
         }
         let cell = self.world.cell_at(position)?;
         Some(f64::from(self.steps_from(cell)?) * self.corridor_width)
+    }
+
+    /// Returns the length of a shortest way on which the middle of a robot comes into the
+    /// destination, m; `None` if there is none. The body of the robot holds a disc with this
+    /// `radius`, m, which touches no wall.
+    #[must_use]
+    pub fn shortest_drive(&self, from: Point, radius: f64) -> Option<f64> {
+        // A quarter of the disc is left to the grid.
+        let pitch = 0.25 * radius;
+        let radius = radius - pitch;
+        let body = Body::Circle { radius };
+        let is_floor = |at: Point| self.world.clear_for(&body, Pose::new(at, Heading::EAST));
+        let left = |at: Point| if self.is_destination(at) { 0.0 } else { pitch };
+        let way = taut_way(from, pitch, is_floor, left)?;
+        Some(
+            way.windows(2)
+                .map(|piece| (piece[1] - piece[0]).norm())
+                .sum(),
+        )
     }
 
     /// Returns the first of four cells without a wall between them; `None` if there are none, and

@@ -54,7 +54,9 @@ pub mod pioneer;
 pub mod registry;
 pub mod run;
 mod simulated;
+mod taut_way;
 
 pub use mind::{AnyBrain, AnyRollingBrain, Mind};
 pub use outing::{Depicted, Founding, HasSimulated, Outing, RobotFacts, Sent};
 pub use simulated::{Simulated, trace_of};
+pub use taut_way::{is_clear, taut_way};

@@ -156,6 +156,20 @@ impl RobotFacts {
             step_us: model.step_us(),
         }
     }
+
+    /// Returns the radius of the largest disc round the robot's origin that its body covers, m.
+    #[must_use]
+    pub fn inner_radius(&self) -> f64 {
+        match &self.body {
+            Body::Circle { radius } => *radius,
+            Body::Polygon { corners } => {
+                let next = corners.iter().cycle().skip(1);
+                let sides = corners.iter().zip(next).map(|(a, b)| (a, b - a));
+                let far = sides.map(|(a, side)| a.coords.perp(&side).abs() / side.norm());
+                far.fold(f64::INFINITY, f64::min)
+            }
+        }
+    }
 }
 
 /// Origin of a place of a map.
@@ -305,7 +319,7 @@ pub struct Sent<R: Robot, S> {
 
 type Count<S> = Box<dyn Fn(&S) -> usize>;
 type Keep<S> = Box<dyn Fn(&S, &[Founding]) -> Result<Option<String>, BoxError>>;
-type Lie<S> = Box<dyn Fn(&S) -> BTreeMap<u32, Point>>;
+type Lie<S> = Box<dyn Fn(&S, &[Founding]) -> BTreeMap<u32, Point>>;
 
 impl<R: Robot, S> fmt::Debug for Sent<R, S> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -327,7 +341,9 @@ impl<R: Robot, S> Sent<R, S> {
             actions: 0,
             count: Box::new(|_| 0),
             keep: Box::new(|_, _| Ok(None)),
-            lie: Box::new(|_| BTreeMap::new()),
+            lie: Box::new(|_: &S, made: &[Founding]| {
+                (0..).zip(made.iter().map(|made| made.position)).collect()
+            }),
             choice: Box::new(|_| 0),
             name: None,
             world_from_map: None,
@@ -393,9 +409,10 @@ impl<R: Robot, S> Sent<R, S> {
         }
     }
 
-    /// Lets `lie` say where the places of the map truly lie.
+    /// Lets `lie` say where the places of the map truly lie. `lie` gets the origins that were
+    /// [counted](Self::counting); without it the places lie there.
     #[must_use]
-    pub fn lying(self, lie: impl Fn(&S) -> BTreeMap<u32, Point> + 'static) -> Self {
+    pub fn lying(self, lie: impl Fn(&S, &[Founding]) -> BTreeMap<u32, Point> + 'static) -> Self {
         let lie = Box::new(lie);
         Self { lie, ..self }
     }
@@ -546,12 +563,10 @@ where
     }
 
     fn sites(&self) -> BTreeMap<u32, Point> {
-        if self.world_from_map.is_some() {
-            return BTreeMap::new();
+        match self.world_from_map {
+            Some(_) => BTreeMap::new(),
+            None => (self.lie)(&self.system, &self.sites),
         }
-        let mut sites = (self.lie)(&self.system);
-        sites.extend((0..).zip(self.sites.iter().map(|site| site.position)));
-        sites
     }
 
     fn chosen(&self) -> usize {

@@ -80,7 +80,8 @@ impl FloorPlan {
         Self::of_walls_and(walls, &[], width)
     }
 
-    fn of_walls_and(walls: &[[Point; 2]], held: &[Point], width: f64) -> Self {
+    /// Returns a plan with these walls that is also large enough for the points `held`.
+    pub fn of_walls_and(walls: &[[Point; 2]], held: &[Point], width: f64) -> Self {
         let points = walls.iter().flatten().chain(held);
         let bounds = Bounds::of(points.copied());
         let mut plan = Self::of_bounds(&bounds, width);

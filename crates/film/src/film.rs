@@ -1,19 +1,16 @@
 //! Replays of any outing.
 
-use alloc::collections::{BTreeMap, BTreeSet};
-use core::mem;
+use alloc::collections::BTreeMap;
 
 use tolman_arena::Outing;
 use tolman_geom::Point;
 use tolman_replay::{
-    Belief, MapEdge, MapGrowth, MapNode, Mark, Marks, Notes, Replay, RobotTrack, Shape, TimeSeries,
+    Belief, MapGrowth, MapNode, Mark, Marks, Notes, Replay, RobotTrack, Shape, TimeSeries,
 };
-use tolman_robot::{Landmark, Position};
+use tolman_robot::{Position, VisitNaming};
 
+use crate::growth::Growth;
 use crate::scenery::scenery_of;
-
-/// Distance within which a node that moved is not redrawn, m.
-const STILL: f64 = 0.05;
 
 /// Number of actions after each of which the map is recorded. Later it is recorded less often.
 const DENSE: u32 = 200;
@@ -26,15 +23,14 @@ pub struct Film {
     every: u32,
     thoughts: Notes,
     belief: Belief,
-    nodes: BTreeMap<u32, MapNode>,
-    edges: BTreeMap<(u32, u32), MapEdge>,
-    /// Edges that ended before another one with the same ends began.
-    gone: Vec<MapEdge>,
+    growth: Growth,
+    /// Number of poses of the path that were seen.
+    seen: usize,
     places: TimeSeries,
     /// True position of the robot when the system first believed it was at a place, m.
     met: BTreeMap<u32, Point>,
-    /// Place that is labelled as the goal.
-    goal: Option<u32>,
+    /// Where the system came to a place before it had a map.
+    gathered: Vec<MapNode>,
     /// Steps before which the robot was lifted and put down elsewhere.
     lifts: Vec<u32>,
 }
@@ -44,7 +40,7 @@ pub struct Film {
 pub struct Glimpse {
     /// Positions of the places of the system's map, m.
     pub places: Vec<Point>,
-    /// Ends of the ways between the places, m; each way is listed once.
+    /// Straight pieces of the ways between the places, m; each way is listed once.
     pub ways: Vec<[Point; 2]>,
     /// Believed positions, m, the most likely first.
     pub belief: Vec<Point>,
@@ -59,12 +55,11 @@ impl Film {
             every: 1,
             thoughts: Notes::new("thinks"),
             belief: Belief::new("belief"),
-            nodes: BTreeMap::new(),
-            edges: BTreeMap::new(),
-            gone: Vec::new(),
+            growth: Growth::new(outing),
+            seen: 0,
             places: TimeSeries::new("places on the map", ""),
             met: BTreeMap::new(),
-            goal: None,
+            gathered: Vec::new(),
             lifts: Vec::new(),
         };
         film.map(outing, 0);
@@ -96,12 +91,18 @@ impl Film {
     /// Records that the robot was lifted and put down elsewhere. Its next step is the first there.
     pub fn lifted(&mut self, outing: &dyn Outing) {
         self.lifts.push(outing.path().len() as u32);
+        self.growth.lift();
     }
 
     /// Records the result of an action.
     pub fn see(&mut self, outing: &dyn Outing) {
         let step = outing.path().len().saturating_sub(1) as u32;
         self.actions += 1;
+        let path = outing.path();
+        for pose in path.get(self.seen..).into_iter().flatten() {
+            self.growth.sweep(pose.position);
+        }
+        self.seen = path.len();
         self.meet(outing);
         let every = self.every.max(self.actions / DENSE).max(1);
         if self.actions.is_multiple_of(every) {
@@ -116,16 +117,9 @@ impl Film {
             return;
         }
         let sites = outing.sites();
-        let Self {
-            belief: shown,
-            nodes,
-            ..
-        } = self;
-        let site = |id: u32| {
-            let node = nodes.get(&id).map(MapNode::latest);
-            node.or_else(|| sites.get(&id).copied())
-        };
-        shown.note(step, &belief, site);
+        let growth = &self.growth;
+        let site = |id: u32| growth.site(id).or_else(|| sites.get(&id).copied());
+        self.belief.note(step, &belief, site);
     }
 
     /// Records the robot's true position, if the system believes that it is at a place.
@@ -143,65 +137,38 @@ impl Film {
     fn map(&mut self, outing: &dyn Outing, step: u32) {
         let map = outing.map();
         self.places.sample(step, map.places.len() as f64);
-        let there: BTreeSet<u32> = map.places.iter().map(|place| place.id).collect();
-        for (id, node) in &mut self.nodes {
-            if node.died.is_none() && !there.contains(id) {
-                node.died = Some(step);
-            }
-        }
-        let sites = outing.sites();
-        for place in &map.places {
+        let (sites, met) = (outing.sites(), &self.met);
+        // If the map has no positions, a place is shown where the robot was when the system first
+        // believed that it was there.
+        self.growth.see(step, &map, |place| {
             let site = sites.get(&place.id).copied();
-            // If the map has no positions, a place is shown where the robot was when the system
-            // first believed that it was there.
-            let met = self.met.get(&place.id).copied();
-            let Some(at) = site.or(place.position).or(met) else {
-                continue;
-            };
-            let node = self.nodes.entry(place.id);
-            let node = node.or_insert_with(|| MapNode::new(place.id, at, step));
-            // A place that reappears was only out of sight.
-            node.died = None;
-            node.move_to(step, at, STILL);
-            // Many nodes may be at the goal; only one is labelled.
-            if place.landmark == Some(Landmark::Goal)
-                && *self.goal.get_or_insert(place.id) == place.id
-            {
-                node.label = "goal".to_owned();
+            site.or(place.position)
+                .or_else(|| met.get(&place.id).copied())
+        });
+        if map.places.is_empty() {
+            self.gather(outing, step);
+        } else {
+            for node in &mut self.gathered {
+                node.died.get_or_insert(step);
             }
         }
-        let wanted: BTreeSet<(u32, u32)> = map
-            .links
-            .iter()
-            .map(|link| (link.from.min(link.to), link.from.max(link.to)))
-            .filter(|(a, b)| self.nodes.contains_key(a) && self.nodes.contains_key(b))
-            .collect();
-        for (ends, edge) in &mut self.edges {
-            if edge.died.is_none() && !wanted.contains(ends) {
-                edge.died = Some(step);
-            }
-        }
-        for (a, b) in wanted {
-            let edge = self.edges.entry((a, b));
-            let edge = edge.or_insert_with(|| MapEdge::new(a, b, step));
-            // An edge that reappears is a new edge.
-            if edge.died.is_some() {
-                self.gone.push(mem::replace(edge, MapEdge::new(a, b, step)));
-            }
+    }
+
+    /// Records where the system came to a place for its map to be.
+    fn gather(&mut self, outing: &dyn Outing, step: u32) {
+        let is_named = outing.visit_naming() == VisitNaming::EachArrival;
+        if let (true, Some(pose)) = (is_named, outing.path().last())
+            && outing.visit_count() > self.gathered.len()
+        {
+            let number = self.gathered.len() as u32;
+            self.gathered
+                .push(MapNode::new(number, pose.position, step));
         }
     }
 
     /// Returns the knowledge of the system after its last action. O(map).
     #[must_use]
     pub fn glimpse(&self) -> Glimpse {
-        let places: BTreeMap<u32, Point> = self
-            .nodes
-            .iter()
-            .filter(|(_, node)| node.died.is_none())
-            .map(|(id, node)| (*id, node.latest()))
-            .collect();
-        let alive = self.edges.values().filter(|edge| edge.died.is_none());
-        let ways = alive.filter_map(|edge| Some([*places.get(&edge.a)?, *places.get(&edge.b)?]));
         let believed = self.belief.entries.last().map(|entry| &entry.shapes);
         let belief = believed
             .into_iter()
@@ -211,9 +178,9 @@ impl Film {
                 _ => None,
             });
         Glimpse {
-            ways: ways.collect(),
+            ways: self.growth.ways(),
             belief: belief.collect(),
-            places: places.into_values().collect(),
+            places: self.growth.places(),
         }
     }
 
@@ -227,15 +194,14 @@ impl Film {
         let mut track = RobotTrack::new(robot.name, robot.body, path.to_vec());
         track.ring = robot.ring;
         let scenery = scenery_of(outing.course(), &mut track);
-        track.maps = vec![MapGrowth {
-            name: "map".to_owned(),
-            nodes: self.nodes.into_values().collect(),
-            edges: self
-                .gone
-                .into_iter()
-                .chain(self.edges.into_values())
-                .collect(),
-        }];
+        track.maps = vec![self.growth.recorded()];
+        if !self.gathered.is_empty() {
+            track.maps.push(MapGrowth {
+                name: "records for the map".to_owned(),
+                nodes: self.gathered,
+                edges: Vec::new(),
+            });
+        }
         track.series.push(self.places);
         if !self.thoughts.notes.is_empty() {
             track.notes = vec![self.thoughts];

@@ -15,8 +15,10 @@
 extern crate alloc;
 
 mod film;
+mod growth;
 mod recorder;
 mod scenery;
+mod swept_floor;
 
 pub use film::{Film, Glimpse};
 pub use recorder::Recorder;

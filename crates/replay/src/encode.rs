@@ -1,4 +1,4 @@
-//! A replay as the player reads it: JSON, format `tolman-replay`, version 1 (`docs/replay.md`).
+//! A replay as the player reads it: JSON, format `tolman-replay`, version 2 (`docs/replay.md`).
 
 use serde_json::{Value, json};
 use thiserror::Error;
@@ -9,12 +9,12 @@ use tolman_sim::{Bounds, DoorState};
 
 use super::rounding::{bounds_of, rounded};
 use super::{
-    Belief, Exemplar, Fact, Field, MapEdge, MapGrowth, MapNode, Marks, Notes, Replay, RobotTrack,
-    Scans, SceneryDoor, SceneryZone, Shape, TimeSeries, blob,
+    Belief, Chapter, Exemplar, Fact, Field, MapEdge, MapGrowth, MapNode, Marks, Notes, Replay,
+    RobotTrack, Scans, SceneryDoor, SceneryZone, Shape, TimeSeries, blob,
 };
 
 const FORMAT: &str = "tolman-replay";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// Reason why a replay cannot be written.
 #[derive(Debug, Error)]
@@ -136,6 +136,8 @@ fn value(replay: &Replay) -> Result<Value, EncodeError> {
     }
     let ends = scenery.walls.iter().flatten().copied();
     let positions = replay.tracks.iter().flat_map(|track| &track.poses);
+    let corners = scenery.zones.iter().flat_map(|zone| &zone.corners).copied();
+    let ends = ends.chain(corners);
     let bounds = bounds_of(ends.chain(positions.map(|pose| pose.position)));
     let tracks = replay.tracks.iter();
     let tracks = tracks.map(|track| self::track(track, &bounds));
@@ -145,6 +147,7 @@ fn value(replay: &Replay) -> Result<Value, EncodeError> {
         "title": replay.title,
         "facts": facts(&replay.facts),
         "step_s": replay.step_s,
+        "chapters": chapters(&replay.chapters)?,
         "box": [bounds.min.x, bounds.min.y, bounds.max.x, bounds.max.y],
         "walls": blob::floats(coordinates(scenery.walls.iter().flatten())),
         "zones": scenery.zones.iter().map(zone).collect::<Value>(),
@@ -152,6 +155,13 @@ fn value(replay: &Replay) -> Result<Value, EncodeError> {
         "tracks": tracks.collect::<Result<Vec<_>, _>>()?,
         "marks": each(&replay.marks, marks)?,
     }))
+}
+
+fn chapters(chapters: &[Chapter]) -> Result<Value, EncodeError> {
+    ascend("chapter", chapters.iter().map(|chapter| chapter.from))?;
+    let chapters = chapters.iter();
+    let chapters = chapters.map(|chapter| json!([chapter.from, chapter.caption, chapter.seconds]));
+    Ok(chapters.collect())
 }
 
 fn zone(zone: &SceneryZone) -> Value {
@@ -271,6 +281,7 @@ fn map(map: &MapGrowth) -> Result<Value, EncodeError> {
     all_finite("node", &map.nodes, |node| {
         finite(&node.position) && node.moves.iter().all(|moved| finite(&moved.position))
     })?;
+    all_finite("edge", &map.edges, |edge| edge.way.iter().all(finite))?;
     Ok(json!({
         "name": map.name,
         "nodes": each(&map.nodes, node)?,
@@ -283,12 +294,18 @@ fn node(node: &MapNode) -> Result<Value, EncodeError> {
     ascend("move of a node", node.moves.iter().map(|moved| moved.step))?;
     let moves = node.moves.iter();
     let moves = moves.map(|moved| json!([moved.step, place(moved.position)]));
+    ascend(
+        "label of a node",
+        node.labels.iter().map(|label| label.step),
+    )?;
+    let labels = node.labels.iter();
+    let labels = labels.map(|label| json!([label.step, label.text]));
     let mut value = json!({
         "id": node.id,
         "at": place(node.position),
         "born": node.born,
         "died": node.died,
-        "label": node.label,
+        "labels": labels.collect::<Value>(),
         "facts": facts(&node.facts),
         "visits": steps("visit of a node", node.visits.iter().copied())?,
         "moves": moves.collect::<Value>(),
@@ -311,7 +328,12 @@ fn exemplar(Exemplar { heading, scan }: &Exemplar) -> Result<Value, EncodeError>
 
 fn edge(edge: &MapEdge) -> Value {
     // Arrays instead of objects, because a large map has many edges.
-    json!([edge.a, edge.b, edge.kind, edge.born, edge.died, edge.label])
+    let mut value = json!([edge.a, edge.b, edge.kind, edge.born, edge.died, edge.label]);
+    if let (Value::Array(parts), false) = (&mut value, edge.way.is_empty()) {
+        let way = coordinates(&edge.way).map(|along| libm::round(along * 1e3) / 1e3);
+        parts.push(way.collect());
+    }
+    value
 }
 
 fn belief(belief: &Belief) -> Result<Value, EncodeError> {

@@ -305,8 +305,11 @@ fn grow(map: &MapGrowth, topic: &str, events: &mut Events<'_>) {
         };
         let id = format!("edge {number}");
         for step in redrawn(edge, [ends.0, ends.1]) {
-            let ends = [place(ends.0, step), place(ends.1, step)];
-            let line = FloorDrawing::Segments(vec![ends], faint(BLUE, 0.6));
+            let corners = edge.way.iter().copied();
+            let way = [place(ends.0, step)].into_iter().chain(corners);
+            let way: Vec<Point> = way.chain([place(ends.1, step)]).collect();
+            let pieces = way.windows(2).map(|piece| [piece[0], piece[1]]);
+            let line = FloorDrawing::Segments(pieces.collect(), faint(BLUE, 0.6));
             events.draw(step, topic, &id, line);
         }
         if let Some(died) = edge.died {

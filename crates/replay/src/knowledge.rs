@@ -42,8 +42,8 @@ pub struct MapNode {
     pub born: u32,
     /// Step at which the node disappears; `None` if it stays.
     pub died: Option<u32>,
-    /// Label beside the node, a word or two; empty for none.
-    pub label: String,
+    /// Labels beside the node, ascending by step; each holds until the next.
+    pub labels: Vec<NodeLabel>,
     /// Facts shown when the node is clicked.
     pub facts: Vec<Fact>,
     /// Steps at which the robot visited the node, ascending.
@@ -63,7 +63,7 @@ impl MapNode {
             position,
             born,
             died: None,
-            label: String::new(),
+            labels: Vec::new(),
             facts: Vec::new(),
             visits: Vec::new(),
             moves: Vec::new(),
@@ -86,6 +86,31 @@ impl MapNode {
             self.moves.push(NodeMove { step, position });
         }
     }
+
+    /// Returns the node's last label; empty for none.
+    #[must_use]
+    pub fn label(&self) -> &str {
+        self.labels.last().map_or("", |label| &label.text)
+    }
+
+    /// Labels the node from `step` on, if it is not labelled so yet. An empty text removes the
+    /// label.
+    pub fn label_from(&mut self, step: u32, text: &str) {
+        if self.label() != text {
+            self.labels.pop_if(|label| label.step >= step);
+            let text = text.to_owned();
+            self.labels.push(NodeLabel { step, text });
+        }
+    }
+}
+
+/// A node's label, in a word or two, from a step on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NodeLabel {
+    /// Step from which the label holds.
+    pub step: u32,
+    /// Words of the label; empty for none.
+    pub text: String,
 }
 
 /// A node's new position.
@@ -107,7 +132,7 @@ pub struct Exemplar {
 }
 
 /// An edge of a [`MapGrowth`].
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct MapEdge {
     /// Id of the node at which the edge begins.
     pub a: u32,
@@ -121,6 +146,8 @@ pub struct MapEdge {
     pub died: Option<u32>,
     /// Label, a word or two, shown when one of the nodes is clicked; empty for none.
     pub label: String,
+    /// Corners of the edge between its ends, from `a` to `b`, m; none if it is straight.
+    pub way: Vec<Point>,
 }
 
 impl MapEdge {
@@ -134,6 +161,7 @@ impl MapEdge {
             born,
             died: None,
             label: String::new(),
+            way: Vec::new(),
         }
     }
 }
@@ -144,6 +172,8 @@ impl MapEdge {
 pub enum EdgeKind {
     /// A way between two nodes.
     Passage,
+    /// A way between two nodes that the robot has not driven. It is drawn straight, and dashed.
+    Supposed,
     /// A wall between two posts.
     Wall,
     /// A relation other than a way, such as a loop closure or a match.

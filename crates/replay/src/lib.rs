@@ -58,6 +58,7 @@ mod of_trace;
 mod page;
 mod rounding;
 mod scenery;
+mod thin;
 
 pub use difference::{Difference, Differs};
 pub use encode::{EncodeError, json};
@@ -65,12 +66,12 @@ pub use events::{EventContent, FloorDisc, FloorDrawing, ReplayEvent, Rgba, WORLD
 pub use floor::Floor;
 pub use knowledge::{
     Belief, BeliefAt, EdgeKind, Exemplar, Field, FieldChange, MapEdge, MapGrowth, MapNode, Mark,
-    Marks, NodeMove, Note, Notes, Sample, Shape, TimeSeries,
+    Marks, NodeLabel, NodeMove, Note, Notes, Sample, Shape, TimeSeries,
 };
 #[cfg(feature = "mcap")]
 pub use mcap_file::{McapExportError, mcap};
-pub use model::{Fact, Replay, RobotTrack, Scans};
-pub use moving_picture::{Chapter, moving_picture};
+pub use model::{Chapter, Fact, Replay, RobotTrack, Scans};
+pub use moving_picture::moving_picture;
 pub use of_trace::{CompareError, Portrait, Trace, TraceComparison};
 pub use page::{is_replay, page, script, style};
 pub use scenery::{DoorChange, Scenery, SceneryDoor, SceneryZone, ZoneKind};

@@ -14,6 +14,8 @@ pub struct Replay {
     pub facts: Vec<Fact>,
     /// Length of a time step, s. At speed 1×, a second of the run takes a second.
     pub step_s: f64,
+    /// Stretches with captions, ascending by their first steps; empty for a run without a story.
+    pub chapters: Vec<Chapter>,
     /// Walls, zones and doors of the world.
     pub scenery: Scenery,
     /// Robots, one track each. All tracks begin at step 0.
@@ -35,6 +37,7 @@ impl Replay {
             title: title.into(),
             facts: Vec::new(),
             step_s,
+            chapters: Vec::new(),
             scenery,
             tracks,
             marks: Vec::new(),
@@ -60,6 +63,17 @@ impl Replay {
     pub fn nanos(&self, step: u32) -> u64 {
         (f64::from(step) * self.step_s * 1e9).round() as u64
     }
+}
+
+/// A stretch of a replay with a caption.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chapter {
+    /// First step of the chapter.
+    pub from: u32,
+    /// Caption of the chapter.
+    pub caption: String,
+    /// Duration of the chapter in an animation, s.
+    pub seconds: f64,
 }
 
 /// A fact about a run, in words.

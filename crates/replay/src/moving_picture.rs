@@ -1,21 +1,10 @@
 //! A replay as an animated SVG.
 
 use maud::{Markup, html};
-use tolman_draw::{Figure, FloorPlan, Series, ZoneStyle};
+use tolman_draw::{Figure, FloorPlan, KeyMark, Series, ZoneStyle};
 use tolman_geom::Point;
 
-use super::{MapNode, Replay, RobotTrack, Shape, ZoneKind};
-
-/// A stretch of a replay with a caption.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Chapter {
-    /// First step of the chapter.
-    pub from: u32,
-    /// Caption of the chapter.
-    pub caption: String,
-    /// Duration of the chapter in the animation, s.
-    pub seconds: f64,
-}
+use super::{Chapter, MapNode, Replay, RobotTrack, Shape, ZoneKind};
 
 /// Number of frames per second.
 const RATE: f64 = 25.0;
@@ -29,22 +18,32 @@ const METRES_PER_RADIAN: f64 = 0.05;
 /// Width of the picture, user units.
 const WIDTH: f64 = 800.0;
 
+/// Colours of the map and of the belief.
+const MAP: Series = Series(0);
+const BELIEF: Series = Series(3);
+
+/// Returns the colour of the way of a chapter.
+fn way_of(chapter: usize) -> Series {
+    Series([1, 3, 2][chapter.min(2)])
+}
+
 /// Height for the caption below, user units.
 const FOOT: f64 = 34.0;
 
 /// Returns the first robot of a replay as an SVG that plays in a loop. It shows the robot's way,
 /// its map as it grew and, after it was first lifted, its belief.
 ///
-/// `chapters` are played in turn and ascend by their first steps. Time is proportional to the
-/// driven distance, so that a slow robot does not make a long animation. Nodes of the map are drawn
+/// Its chapters are played in turn. Time is proportional to the driven distance, so that a slow robot does not make a long animation. Nodes of the map are drawn
 /// at their last positions.
 ///
 /// The SVG has no script and needs no network. A viewer that does not animate shows the end.
 /// O(poses + map).
 #[must_use]
-pub fn moving_picture(replay: &Replay, chapters: &[Chapter]) -> String {
-    let walls = &replay.scenery.walls;
-    let mut plan = FloorPlan::of_walls(walls, WIDTH);
+pub fn moving_picture(replay: &Replay) -> String {
+    let (scenery, chapters) = (&replay.scenery, &replay.chapters);
+    let corners = scenery.zones.iter().flat_map(|zone| &zone.corners);
+    let corners: Vec<Point> = corners.copied().collect();
+    let mut plan = FloorPlan::of_walls_and(&scenery.walls, &corners, WIDTH);
     for zone in &replay.scenery.zones {
         let style = match zone.kind {
             ZoneKind::Destination => ZoneStyle::Destination,
@@ -64,6 +63,11 @@ pub fn moving_picture(replay: &Replay, chapters: &[Chapter]) -> String {
             (robot(&plan, track, &clock))
         };
         plan.layer(body);
+        plan.key(KeyMark::Disc, MAP, "its map");
+        plan.key(KeyMark::Line, way_of(0), "its way");
+        if !track.beliefs.is_empty() {
+            plan.key(KeyMark::Disc, BELIEF, "where it may be");
+        }
         let mut drawing = plan.drawing(format!("{}, played step by step.", replay.title));
         let captions = captions(chapters, &clock, drawing.height);
         drawing.height += FOOT;
@@ -206,12 +210,15 @@ fn map(plan: &FloorPlan, track: &RobotTrack, clock: &Clock) -> Markup {
         }
         for edge in &map.edges {
             if let (Some(a), Some(b)) = (at(edge.a), at(edge.b)) {
-                edges.add(clock, edge.born, edge.died, &format!("M{a}L{b}"));
+                let corners = edge.way.iter().map(|corner| place(plan, *corner));
+                let corners: Vec<String> = corners.chain([b]).collect();
+                let path = format!("M{a}L{}", corners.join("L"));
+                edges.add(clock, edge.born, edge.died, &path);
             }
         }
     }
     html! {
-        g class=(Series(0).class()) {
+        g class=(MAP.class()) {
             g stroke-opacity="0.55" { (edges.markup(clock, "2")) }
             (nodes.markup(clock, "8"))
         }
@@ -227,7 +234,7 @@ fn ways(plan: &FloorPlan, track: &RobotTrack, clock: &Clock) -> Markup {
             @let at = |step: &u32| plan.at(track.poses[*step as usize].position);
             @let points: Vec<(f64, f64)> = steps.iter().map(at).collect();
             @let path: Vec<String> = points.iter().map(|at| pair(*at)).collect();
-            g class=(Series([1, 3, 2][number.min(2)]).class()) {
+            g class=(way_of(number).class()) {
                 path d={ "M" (path.join("L")) } fill="none" stroke="currentColor"
                     stroke-width=(if number == 0 { "1.6" } else { "3.5" })
                     stroke-opacity=(if number == 0 { "0.35" } else { "0.9" })
@@ -278,7 +285,7 @@ fn beliefs(plan: &FloorPlan, track: &RobotTrack, clock: &Clock) -> Markup {
     let latest = |id| track.node(id).map(MapNode::latest);
     let middle = |shape: &Shape| shape.middle(latest);
     html! {
-        g class=(Series(3).class()) fill="currentColor" {
+        g class=(BELIEF.class()) fill="currentColor" {
             @for (entry, from, to) in entries {
                 g opacity="0" {
                     @for (position, weight) in entry.shapes.iter().filter_map(middle) {
@@ -400,22 +407,20 @@ mod tests {
             walls: vec![[Point::new(0.0, 0.0), Point::new(5.0, 1.0)]],
             ..Scenery::default()
         };
-        Replay::new("Twice", 0.1, scenery, vec![track])
-    }
-
-    fn chapters() -> Vec<Chapter> {
+        let mut replay = Replay::new("Twice", 0.1, scenery, vec![track]);
         let chapter = |from, caption: &str| Chapter {
             from,
             caption: caption.to_owned(),
             seconds: 2.0,
         };
-        vec![chapter(0, "away"), chapter(5, "again")]
+        replay.chapters = vec![chapter(0, "away"), chapter(5, "again")];
+        replay
     }
 
     #[test]
     fn time_passes_as_the_robot_gets_on() {
-        let track = &replay().tracks[0];
-        let clock = Clock::of(track, &chapters());
+        let replay = replay();
+        let clock = Clock::of(&replay.tracks[0], &replay.chapters);
         assert_eq!(clock.steps.len(), 2 * (50 + 30));
         assert!(clock.steps.is_sorted());
         // Half of the first chapter's time shows half of its way.
@@ -426,7 +431,7 @@ mod tests {
 
     #[test]
     fn maps_grow_and_beliefs_are_shown_once_the_robot_was_lifted() {
-        let svg = moving_picture(&replay(), &chapters());
+        let svg = moving_picture(&replay());
         assert!(svg.contains(">away<") && svg.contains(">again<"));
         // Of the two beliefs, the one before the robot was lifted is not shown.
         assert_eq!(svg.matches("<circle").count(), 1);
@@ -438,11 +443,11 @@ mod tests {
     #[test]
     fn nothing_to_show_is_an_empty_plan() {
         let replay = Replay::new("Nothing", 0.1, Scenery::default(), Vec::new());
-        assert!(moving_picture(&replay, &[]).starts_with("<svg"));
+        assert!(moving_picture(&replay).starts_with("<svg"));
         let mut still = self::replay();
         still.tracks[0].poses.truncate(1);
-        assert!(moving_picture(&still, &chapters()).contains(">away<"));
+        assert!(moving_picture(&still).contains(">away<"));
         still.tracks[0].poses.clear();
-        assert!(moving_picture(&still, &chapters()).starts_with("<svg"));
+        assert!(moving_picture(&still).starts_with("<svg"));
     }
 }

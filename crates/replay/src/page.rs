@@ -45,8 +45,9 @@ pub fn page(replay: &Replay) -> Result<String, EncodeError> {
                 script #replay-data type="application/json" { (PreEscaped(data)) }
                 script { (PreEscaped(script())) }
                 script {
-                    (PreEscaped("TolmanReplay.open(document.getElementById('replay'), \
-                        JSON.parse(document.getElementById('replay-data').textContent));"))
+                    "TolmanReplay.open(document.getElementById('replay'), \
+                        JSON.parse(document.getElementById('replay-data').textContent), \
+                        { autoplay: " (!replay.chapters.is_empty()) " });"
                 }
             }
         }

@@ -78,10 +78,11 @@ var TolmanReplay = (() => {
     const byId = new Map();
     for (const node of map.nodes) {
       node.visits = node.visits ? steps(node.visits) : [];
+      node.labels = node.labels || (node.label ? [[node.born, node.label]] : []);
       byId.set(node.id, node);
     }
-    const edges = map.edges.map(([a, b, kind, born, died, label]) => ({ a: byId.get(a), b: byId.get(b), kind, born, died, label }));
-    const changed = [...map.nodes, ...edges].flatMap(thing => [thing.born, thing.died ?? 0, ...(thing.moves || []).map(moved => moved[0])]);
+    const edges = map.edges.map(([a, b, kind, born, died, label, way]) => ({ a: byId.get(a), b: byId.get(b), kind, born, died, label, way: way || [] }));
+    const changed = [...map.nodes, ...edges].flatMap(thing => [thing.born, thing.died ?? 0, ...[...thing.moves || [], ...thing.labels || []].map(change => change[0])]);
     return { name: map.name, nodes: map.nodes, edges, byId, changed: changed.sort((a, b) => a - b) };
   }
 
@@ -112,14 +113,15 @@ var TolmanReplay = (() => {
 
   function decode(replay) {
     const data = typeof replay === "string" ? JSON.parse(replay) : replay;
-    if (data.format !== "tolman-replay" || data.version !== 1) {
-      throw new Error("not a replay of version 1: " + data.format + " " + data.version);
+    if (data.format !== "tolman-replay" || ![1, 2].includes(data.version)) {
+      throw new Error("not a replay of version 1 or 2: " + data.format + " " + data.version);
     }
     const tracks = data.tracks.map(track => decodeTrack(track, data.box));
     return {
       title: data.title,
       facts: data.facts,
       stepLength: data.step_s,
+      chapters: (data.chapters || []).map(([from, caption]) => ({ from, caption })),
       box: data.box,
       walls: floats(data.walls),
       zones: data.zones.map(zone => ({ ...zone, corners: floats(zone.corners) })),
@@ -174,6 +176,12 @@ var TolmanReplay = (() => {
       }
     }
     return node.at;
+  }
+
+  // The label of a node at a step; empty for none.
+  function labelOf(node, step) {
+    const i = lastAt(node.labels.map(label => label[0]), step);
+    return i < 0 ? "" : node.labels[i][1];
   }
 
   function isShut(door, step) {
@@ -535,6 +543,7 @@ var TolmanReplay = (() => {
 
   const EDGE_STYLES = {
     passage: { colour: "edge", width: 1.8, dash: [] },
+    supposed: { colour: "edge", width: 1.2, dash: [3, 4] },
     wall: { colour: "known", width: 3, dash: [] },
     relation: { colour: "relation", width: 1.2, dash: [4, 3] },
   };
@@ -545,11 +554,12 @@ var TolmanReplay = (() => {
     for (const edge of map.edges) {
       if (!alive(edge, step)) continue;
       const style = EDGE_STYLES[edge.kind];
-      context.strokeStyle = edge.kind === "passage" ? edgeColour : colours[style.colour];
+      context.strokeStyle = style.colour === "edge" ? edgeColour : colours[style.colour];
       context.lineWidth = style.width / at.scale;
       context.setLineDash(style.dash.map(length => length / at.scale));
       context.beginPath();
       context.moveTo(...placeOf(edge.a, step));
+      for (let i = 0; i < edge.way.length; i += 2) context.lineTo(edge.way[i], edge.way[i + 1]);
       context.lineTo(...placeOf(edge.b, step));
       context.stroke();
     }
@@ -560,7 +570,7 @@ var TolmanReplay = (() => {
       if (!alive(node, step)) continue;
       const [left, top] = screenOf(stage, at, ...placeOf(node, step));
       context.drawImage(stamp, left - half, top - half, 2 * half, 2 * half);
-      if (node.label) labelled.push([node.label, left, top]);
+      if (node.labels.length) labelled.push([labelOf(node, step), left, top]);
     }
     drawLabels(context, at, labelled, colours);
   }
@@ -771,8 +781,12 @@ var TolmanReplay = (() => {
   const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
   const KEYS = "space play · ←/→ step · shift ±10 · home/end · +/− speed · [ ] marks · wheel zoom · drag pan · 0 fit";
 
+  // How the legend shows a layer.
+  const SIGNS = { trajectory: ["trail"], map: ["graph", "edge"], belief: ["dot", "belief"], beams: ["line", "beam"] };
+  const ZONES = { start: "start", destination: "goal", solid: "no floor" };
+
   class Player {
-    constructor(element, data, { growing = false } = {}) {
+    constructor(element, data, { growing = false, autoplay = false } = {}) {
       this.growing = growing;
       this.hasAddress = !growing;
       this.sceneryKept = new Kept();
@@ -793,6 +807,8 @@ var TolmanReplay = (() => {
       this.seek(this.hasAddress && this.stepOfAddress() || 0);
       // The first picture is there at once, also where nobody asks for frames: in a tab behind others, on paper.
       this.frame(performance.now());
+      const isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+      if (autoplay && !isCalm && this.stepOfAddress() === null) this.play();
     }
 
     // Takes a run, or the same with more of it; layers that were switched off stay so.
@@ -872,6 +888,7 @@ var TolmanReplay = (() => {
       const { run } = this;
       this.root = make("div", { class: "tolman-replay", tabindex: "-1", "data-part": "replay", "data-theme": this.preferredTheme(), "data-tracks": run.tracks.length > 1 && run.tracks.length });
       this.canvas = make("canvas", { "data-part": "canvas", "aria-label": "The world and the robots in it" });
+      this.caption = make("p", { class: "caption", "data-part": "caption", hidden: "" });
       this.stageBox = make("div", { class: "stage", "data-part": "stage" }, this.canvas);
       this.playButton = make("button", { type: "button", "data-part": "play", title: "play or pause (space)", onclick: () => this.toggle() }, "▶");
       const back = make("button", { type: "button", class: "step", "data-part": "back", title: "one step back (←)", onclick: () => this.pauseAt(this.step - 1) }, "‹");
@@ -886,6 +903,7 @@ var TolmanReplay = (() => {
       this.root.append(
         make("header", {}, make("h1", { "data-part": "title" }, run.title), make("p", { class: "keys" }, KEYS), theme),
         this.stageBox,
+        this.caption,
         this.panel,
         make("footer", {}, this.playButton, back, ahead, this.speedBox, make("div", { class: "time" }, this.slider, this.markStrip), this.clock),
       );
@@ -902,14 +920,32 @@ var TolmanReplay = (() => {
 
     layerBoxes() {
       const box = make("section", { "data-part": "layers" }, make("h2", {}, "Layers"));
+      this.signs = [];
       for (const layer of this.layers) {
         const input = make("input", { type: "checkbox", "data-layer": layer.key, onchange: () => this.setLayer(layer, input.checked) });
         input.checked = layer.on;
         const label = make("label", {}, input, " " + layer.name);
         if (layer.key.startsWith("track:")) label.append(this.swatch(Number(layer.key.slice(6))));
+        else this.sign(label, SIGNS[layer.key.split(":")[0]]);
         box.append(label);
       }
+      const zones = new Set(this.run.zones.map(zone => zone.kind));
+      for (const kind of ["start", "destination", "solid"].filter(kind => zones.has(kind))) {
+        const line = make("div", { "data-zone": kind }, ZONES[kind]);
+        this.sign(line, ["zone", kind]);
+        box.append(line);
+      }
       return box;
+    }
+
+    // The legend: each layer and zone has a sign in the colours of the picture.
+    sign(line, look) {
+      if (!look) return;
+      const [shape, colour] = look, sign = make("i", { class: "sign " + shape });
+      const paint = () => sign.style.setProperty("--colour", this.colours()[colour]);
+      paint();
+      this.signs.push(paint);
+      line.append(sign);
     }
 
     swatch(number) {
@@ -1104,6 +1140,7 @@ var TolmanReplay = (() => {
     setTheme(theme) {
       this.root.dataset.theme = theme;
       this.trail.forget();
+      for (const paint of this.signs) paint();
       this.drawMarks();
       this.drawCharts();
       this.showNode();
@@ -1317,7 +1354,7 @@ var TolmanReplay = (() => {
     }
 
     nameOf(node) {
-      return node.label || "node " + node.id;
+      return labelOf(node, this.step) || "node " + node.id;
     }
 
     // Those worth telling: all that are alive, up to a dozen.
@@ -1369,6 +1406,8 @@ var TolmanReplay = (() => {
         this.canvas.height = Math.round(height * ratio);
         this.trail.forget();
         if (!this.moved) this.at = fitted(this.run.box, width, height);
+        // A canvas of another size is empty.
+        this.draw();
       }
       this.drawMarks();
       this.drawCharts();
@@ -1454,7 +1493,7 @@ var TolmanReplay = (() => {
 
     // Brings all words up to the step.
     tell() {
-      const { root, step } = this;
+      const { root, run, step } = this;
       root.dataset.step = step;
       root.dataset.playing = this.playing;
       this.playButton.textContent = this.playing ? "❚❚" : "▶";
@@ -1468,6 +1507,9 @@ var TolmanReplay = (() => {
         });
       }
       for (const { cursor } of this.chartList) cursor.style.left = 100 * step / Math.max(1, this.run.last) + "%";
+      const chapter = run.chapters[lastAt(run.chapters.map(chapter => chapter.from), step)];
+      this.caption.hidden = !chapter;
+      this.caption.textContent = chapter ? chapter.caption : "";
       this.tellVisits();
     }
 
@@ -1540,7 +1582,8 @@ var TolmanReplay = (() => {
   // Shows a replay in `element` in place of what is there. The player that comes back has step, playing, speed,
   // frames and frameMs (how long the last frame took to draw) and seek(), play(), pause(), fit() and close(); the
   // one opened last is window.tolmanReplay. With { growing: true } it waits at the end for extend(data), a longer
-  // replay of the same run, until growing is set to false, and leaves the address alone.
+  // replay of the same run, until growing is set to false, and leaves the address alone. With { autoplay: true } it
+  // begins to play, unless the address names a step or motion is not wanted.
   function open(element, data, options) {
     if (window.tolmanReplay) window.tolmanReplay.close();
     window.tolmanReplay = new Player(element, data, options);

@@ -22,7 +22,7 @@ pub struct ShowRecord {
     /// Distance driven to the goal from the place where the robot localized, m; `None` if the robot
     /// did not arrive.
     pub home: Option<f64>,
-    /// Length of the shortest way to the goal from the cell where it then was, m.
+    /// Length of a shortest way from where it then was to the goal, m: at most `home`.
     pub shortest: f64,
     /// Reason why the system gave up on the way to the goal; empty if it did not.
     pub gave_up: String,
@@ -93,7 +93,7 @@ impl Contest<'_> {
 pub struct WayHome {
     /// Distance driven until the robot was at the goal, m; `None` if it did not arrive.
     pub metres: Option<f64>,
-    /// Length of the shortest way to the goal from the cell where it was, m.
+    /// Length of a shortest way from where it was to the goal, m: at most `metres`.
     pub shortest: f64,
     /// Reason why the system gave up; empty if it did not.
     pub gave_up: String,
@@ -165,11 +165,14 @@ impl Bout {
         }
     }
 
-    /// Begins the way to the goal. The shortest way has this length, m.
+    /// Begins the way to the goal. A shortest way has this length, m.
     pub(super) fn begin_to_go_home(&mut self) -> (Pursuit, f64) {
         let cell = self.squares.cell_at(self.here());
-        let shortest = self.maze.metres_to_goal(cell, self.squares.pitch);
-        let most = Contest::most_home(shortest, self.corridors());
+        let by_cells = self.maze.metres_to_goal(cell, self.squares.pitch);
+        let most = Contest::most_home(by_cells, self.corridors());
+        let radius = self.outing.robot().inner_radius();
+        let shortest = self.outing.course().shortest_drive(self.here(), radius);
+        let shortest = shortest.unwrap_or(by_cells);
         let goal = Task::Reach(Goal::Landmark(Landmark::Goal));
         (self.set_out(goal, most, None), shortest)
     }
@@ -179,7 +182,10 @@ impl WayHome {
     pub(super) fn of(driven: &Driven, shortest: f64) -> Self {
         Self {
             metres: driven.arrived,
-            shortest,
+            // The way it drove is one, too: the search is as fine as its grid.
+            shortest: driven
+                .arrived
+                .map_or(shortest, |driven| driven.min(shortest)),
             gave_up: driven.end.why().to_owned(),
         }
     }

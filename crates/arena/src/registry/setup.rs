@@ -5,7 +5,7 @@ use serde::de::DeserializeOwned;
 use thiserror::Error;
 use tolman_control::Stack;
 use tolman_geom::Pose;
-use tolman_robot::{Body, SensesLandmarks, System};
+use tolman_robot::{Body, Mapper, Robot, SensesLandmarks, System};
 use tolman_sim::robots::{LaserPioneerConfig, Pioneer2dx, Pioneer2dxConfig};
 use tolman_systems::Origin;
 
@@ -161,9 +161,18 @@ impl Setup<'_> {
         R: SensesLandmarks + HasSimulated + 'static,
         S: System<Limited<R>, Failure: Into<BoxError>> + 'static,
     {
+        Box::new(self.sent(name, course, robot, system))
+    }
+
+    /// As [`send`](Self::send), for an outing that has more to say.
+    pub fn sent<R, S>(&self, name: &'static str, course: Course, robot: R, system: S) -> Sent<R, S>
+    where
+        R: Robot,
+        S: Mapper,
+    {
         let origin = self.origin(&course);
         let steps = self.steps.unwrap_or(u32::MAX);
-        Box::new(Sent::new(course, robot, steps, system).keeping_its_view(name, origin))
+        Sent::new(course, robot, steps, system).keeping_its_view(name, origin)
     }
 
     /// Refuses to continue from a map.

@@ -171,7 +171,7 @@ impl<'a> Watch<'a> {
                     let id = self.nodes.len() as u32;
                     self.live.insert(part, self.nodes.len());
                     let mut node = MapNode::new(id, at, now);
-                    node.label = label;
+                    node.label_from(now, &label);
                     self.nodes.push(node);
                 }
             }

@@ -107,7 +107,7 @@ impl MappedLog {
         let places = self.places.places.iter();
         let nodes = places.filter_map(|place| {
             let mut node = MapNode::new(place.id, place.position?, born(place.id));
-            node.label = place.id.to_string();
+            node.label_from(node.born, &place.id.to_string());
             Some(node)
         });
         let links = self.places.links.iter().filter(|link| link.from < link.to);

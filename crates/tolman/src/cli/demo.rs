@@ -93,9 +93,9 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     };
     let (record, replay) = shown(&contest, arguments.live)?;
     if let Some(path) = &arguments.svg {
-        file::write(path, moving_picture(&replay, &chapters(&record, &replay)))?;
+        file::write(path, moving_picture(&replay))?;
     }
-    replay_file::write(&path, replay, overwrite)?;
+    replay_file::write(&path, replay.thinned(replay_file::MOST_STEPS), overwrite)?;
     tell(&contest, &record, out)?;
     replay_file::tell(&path, out)?;
     match failure(&record).filter(|_| can_drive(&contest)) {
@@ -104,7 +104,7 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     }
 }
 
-/// Returns the chapters of the animated SVG, in order.
+/// Returns the chapters of the replay, in order.
 fn chapters(record: &ShowRecord, replay: &Replay) -> Vec<Chapter> {
     let chapter = |from, caption: &str, seconds| Chapter {
         from,
@@ -113,20 +113,22 @@ fn chapters(record: &ShowRecord, replay: &Replay) -> Vec<Chapter> {
     };
     let mut chapters = vec![chapter(
         0,
-        "It explores an unknown maze, and its map (blue) grows over the walls",
+        "It explores an unknown maze, and its map grows",
         9.0,
     )];
     let lifts = replay.tracks.iter().flat_map(|track| &track.lifts);
     chapters.extend(lifts.map(|lift| {
-        let caption = "Put down elsewhere, its belief (pink) collapses to one place";
+        let caption = "Put down elsewhere, it finds out where it is";
         chapter(*lift, caption, 3.0)
     }));
     let home = record.found.step as u32 + 1;
-    chapters.push(chapter(
-        home,
-        "It knows where it is, and drives to the goal",
-        4.0,
-    ));
+    let caption = match (&record.found.outcome, record.home) {
+        (_, None) => "It does not come to the goal",
+        (LocateOutcome::Right, _) => "It knows where it is, and drives to the goal",
+        _ => "It drives to the goal",
+    };
+    let has_more = (home as usize) < replay.steps();
+    chapters.extend(has_more.then(|| chapter(home, caption, 4.0)));
     chapters
 }
 
@@ -180,6 +182,7 @@ fn shown(contest: &Contest<'_>, is_live: bool) -> Result<(ShowRecord, Replay)> {
             .marks
             .push(Marks::new(Mark::Event, "found itself", known));
     }
+    replay.chapters = chapters(&record, &replay);
     let replay = replay.fact("seed", contest.seed.to_string());
     Ok((record, replay))
 }

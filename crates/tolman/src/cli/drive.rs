@@ -1,5 +1,6 @@
 //! `tolman drive`: a robot drives to the goal by a learned map.
 
+use core::fmt;
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -15,6 +16,7 @@ use super::unfinished::{GoingOn, checksum};
 use super::{App, Failure, OrBadInput, Result, Unboxed};
 use tolman_arena::Outing;
 use tolman_arena::registry::{MapText, Schooling, Start};
+use tolman_geom::path_length;
 
 /// Sends a robot to the goal of a maze or a world by a learned map; exits 1 if it does not arrive
 ///
@@ -119,6 +121,7 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
         |_, _| {},
     )?;
     saved.remove();
+    let way = Way::of(&*outing);
     let json = || {
         json!({
             "system": system.name(),
@@ -129,6 +132,8 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
             "steps": ended.steps,
             "actions": ended.actions,
             "bumps": outing.bumped().len(),
+            "metres": way.driven,
+            "shortest_metres": way.shortest,
         })
     };
     arguments.looks.tell(out, json, |out| {
@@ -136,7 +141,7 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
             writeln!(out, "{} is taken for the map of this maze", map.name)?;
         }
         match has_arrived {
-            true => writeln!(out, "{told}"),
+            true => writeln!(out, "{told}\nIt is at the goal: {way}"),
             false => Ok(()),
         }
     })?;
@@ -159,5 +164,42 @@ fn place(outing: &dyn Outing) -> String {
     match course.world.cell_at(at).filter(|_| !course.is_free()) {
         Some(cell) => format!("in cell {cell}"),
         None => format!("at ({:.2}, {:.2}) m", at.x, at.y),
+    }
+}
+
+/// Length of the way to the goal, m.
+struct Way {
+    /// Distance driven until the robot first was at the goal.
+    driven: f64,
+    /// Length of a shortest way from where it started; `None` if none was found.
+    shortest: Option<f64>,
+}
+
+impl Way {
+    fn of(outing: &dyn Outing) -> Self {
+        let (course, path) = (outing.course(), outing.path());
+        let there = path
+            .iter()
+            .position(|pose| course.is_destination(pose.position));
+        let driven = path_length(&path[..there.map_or(path.len(), |there| there + 1)]);
+        let start = path.first().map(|pose| pose.position);
+        let shortest =
+            start.and_then(|start| course.shortest_drive(start, outing.robot().inner_radius()));
+        // The way it drove is one, too: the search is as fine as its grid.
+        let shortest = shortest.map(|shortest| match there {
+            Some(_) => shortest.min(driven),
+            None => shortest,
+        });
+        Self { driven, shortest }
+    }
+}
+
+impl fmt::Display for Way {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "it drove {:.1} m", self.driven)?;
+        match self.shortest {
+            Some(shortest) => write!(f, ", and the shortest way is {shortest:.1} m"),
+            None => Ok(()),
+        }
     }
 }

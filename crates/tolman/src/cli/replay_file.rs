@@ -54,6 +54,10 @@ const ELSEWHERE: [(&str, &str); 2] = [
     ),
 ];
 
+/// Maximum number of steps of the replay of a system. Some learn for hours, in steps of
+/// milliseconds.
+pub(super) const MOST_STEPS: usize = 4000;
+
 /// Writes a replay to the file at `path`, completely or not at all. The ending of the name decides
 /// the format; it is a web page if no other format has that ending.
 ///

@@ -11,6 +11,7 @@ use tolman_robot::{Goal, Landmark, Standing, Task};
 use super::bar::Doing;
 use super::live::{Live, Scene};
 use super::looks::Looks;
+use super::replay_file::MOST_STEPS;
 use super::unfinished::{Done, Keeper, Saved};
 use super::{Failure, Result, Unboxed, interrupt, picture};
 use tolman_arena::registry::{MapText, Setup, slug};
@@ -101,6 +102,7 @@ pub(super) fn send(
             film.replay(outing, format!("{word} in {}", setup.world))
                 .fact("seed", setup.seed.to_string())
                 .fact("outcome", told.clone())
+                .thinned(MOST_STEPS)
         },
     )?;
     let has_arrived = ended.end == TaskEnd::Done && outing.landmark() == Some(Landmark::Goal);
@@ -138,7 +140,7 @@ fn told(ended: &Ended, outing: &dyn Outing, word: &str) -> String {
     };
     let seconds = f64::from(ended.steps) * outing.robot().step_us as f64 * 1e-6;
     format!(
-        "{word} {end}, after {} steps, {seconds:.0} s, {} actions and {} bumps",
+        "{word} {end}, after {} steps, {seconds:.0} s of the robot's time, {} actions and {} bumps",
         ended.steps,
         ended.actions,
         outing.bumped().len()

@@ -227,7 +227,7 @@ impl Ground {
         let sent = Sent::new(course, robot, steps, cpm)
             .choosing(cpm::Cpm::on)
             .keeping(move |cpm, _| keep(cpm, mode, &origin))
-            .lying(move |cpm| {
+            .lying(move |cpm, _| {
                 let explorer = cpm.explorer().filter(|_| has_cells);
                 let layout = explorer.map(|explorer| Layout::of(explorer.mapper.map(), &ours));
                 let places = layout.iter().flat_map(Layout::places);

@@ -1,3 +1,4 @@
+use alloc::collections::BTreeMap;
 use alloc::sync::Arc;
 
 use serde::{Deserialize, Serialize};
@@ -27,7 +28,7 @@ use crate::registry::{
     DrivesBy, LearnedMap, LogMapper, MapText, RobotEntry, RobotKind, Setup, Start, SystemEntry,
     SystemFacts, slug,
 };
-use crate::{BoxError, Outing, Sent};
+use crate::{BoxError, Founding, Outing, Sent};
 
 /// The [diktiometry](tolman_systems::diktiometry) on a Pioneer in an office.
 #[derive(Clone, Copy, Debug)]
@@ -178,7 +179,9 @@ impl SystemEntry for DiktiometryEntry {
         let pose = start_in(&office, robot, setup)?;
         let body = office_robot(&office, robot, pose, setup.seed)?;
         let sent = Sent::new(office.course, body, steps, system).called(name);
-        Ok(Box::new(sent))
+        Ok(Box::new(
+            sent.laid_at(Pose::new(surveyed.start, Heading::EAST)),
+        ))
     }
 
     fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, BoxError> {
@@ -292,20 +295,53 @@ impl DiktiometryEntry {
         let routines = config.routines(furniture.corridor_width);
         let paper = DiktiometerConfig::paper(routines, self.mapper(&office, &config));
         let (course, seed) = (office.course.clone(), setup.seed);
-        Ok(match config.sight {
+        let outing: Box<dyn Outing> = match config.sight {
             PlaceCue::Laser { columns } => {
                 let robot = setup.robot.laser_model(made.laser_robot())?;
                 let robot = course.robot_at(pose, robot, seed)?;
                 let system = Diktiometer::new(paper, LaserEye { columns }, seed);
-                setup.send(self.name(), course, robot, system)
+                Box::new(
+                    setup
+                        .sent(self.name(), course, robot, system)
+                        .counting(visits)
+                        .lying(lie),
+                )
             }
             _ => {
                 let robot = office_robot(&office, &made, pose, seed)?;
                 let system = Diktiometer::new(paper, config.sight, seed);
-                setup.send(self.name(), course, robot, system)
+                Box::new(
+                    setup
+                        .sent(self.name(), course, robot, system)
+                        .counting(visits)
+                        .lying(lie),
+                )
             }
-        })
+        };
+        Ok(outing)
     }
+}
+
+fn visits<E>(system: &Diktiometer<E>) -> usize {
+    system.visited().len()
+}
+
+/// Returns where the places of a map truly lie, if its axes are the world's. `made` has the true
+/// positions of the robot's visits. It began the map at a place, and its first visit may be noted
+/// at the second: the map is laid over the world there.
+fn lie<E>(system: &Diktiometer<E>, made: &[Founding]) -> BTreeMap<u32, Point> {
+    let places = Mapper::map(system).places.into_iter();
+    let placed = places.filter_map(|place| Some((place.id, place.position?)));
+    let placed: BTreeMap<u32, Point> = placed.collect();
+    let visits = system.visits().into_iter().zip(made);
+    let visits = visits.filter_map(|(place, made)| Some(made.position - placed.get(&place?)?));
+    let Some(offset) = visits.take(2).last() else {
+        return BTreeMap::new();
+    };
+    placed
+        .into_iter()
+        .map(|(id, at)| (id, at + offset))
+        .collect()
 }
 
 /// Returns a start in the corridors of an office.

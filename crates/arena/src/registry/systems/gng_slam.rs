@@ -1,5 +1,5 @@
 use serde::{Deserialize, Serialize};
-use tolman_robot::pioneer_2dx;
+use tolman_robot::{Mapper, pioneer_2dx};
 use tolman_systems::gngslam::{OfflineSlam, OfflineSlamConfig};
 
 use super::WIDE;
@@ -66,6 +66,12 @@ impl SystemEntry for GngSlamEntry {
         config.records = setup.settings.over(&gathering)?.records;
         let robot = setup.pioneer_2dx_at(&course, start)?;
         let system = OfflineSlam::new(config, setup.seed);
-        Ok(setup.send(self.name(), course, robot, system))
+        let sent = setup.sent(self.name(), course, robot, system);
+        // The map's origin is where the robot starts.
+        Ok(Box::new(sent.lying(move |system, _| {
+            let places = system.map().places.into_iter();
+            let placed = places.filter_map(|place| Some((place.id, place.position?)));
+            placed.map(|(id, at)| (id, start.transform(at))).collect()
+        })))
     }
 }

@@ -109,7 +109,7 @@ impl SystemEntry for MslstEntry {
         let actor = Actor::seeded(mslst, stack, setup.seed);
         let steps = setup.steps.unwrap_or_else(|| course.step_limit());
         let sent = Sent::new(course, robot, steps, actor)
-            .lying(move |_| (0..).zip(sites.iter().copied()).collect());
+            .lying(move |_, _| (0..).zip(sites.iter().copied()).collect());
         Ok(Box::new(sent))
     }
 
