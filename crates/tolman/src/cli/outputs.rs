@@ -136,6 +136,7 @@ impl Named {
 }
 
 /// The files that this run is known to read and to write.
+#[derive(Default)]
 struct Files {
     read: Vec<Named>,
     written: Vec<Named>,
@@ -155,6 +156,7 @@ fn files() -> MutexGuard<'static, Files> {
 /// # Errors
 /// Bad input if one cannot be written, is read as well, or is named twice.
 pub(super) fn check(mut matches: &ArgMatches) -> Result {
+    *files() = Files::default();
     while let Some((_, of_verb)) = matches.subcommand() {
         matches = of_verb;
     }
@@ -264,4 +266,158 @@ fn refuse_same(input: &Named, output: &Named) -> Result {
         output.path.display(),
         input.path.display()
     )))
+}
+
+#[cfg(unix)]
+#[cfg(test)]
+mod tests {
+    use core::any::TypeId;
+    use std::collections::BTreeSet;
+    use std::env;
+    use std::os::unix::fs::symlink;
+
+    use clap::{Arg, Command, CommandFactory};
+
+    use super::*;
+    use crate::cli::Arguments;
+
+    /// Command lines that are complete, and the options and arguments by which each verb reads
+    /// files. All others that name a file must be an [`Output`].
+    const VERBS: &[(&str, &str)] = &[
+        ("arena", "mazes"),
+        ("audit other", "graph"),
+        ("demo", "maze"),
+        ("drive --map other --maze other", "map maze from"),
+        ("drive --map other --world other", "world"),
+        ("experiment baselines --maze other", "mazes compare verify"),
+        ("host --maze other -- true", "maze"),
+        ("host --world other -- true", "world"),
+        ("learn --system cpm --maze other --out new", "maze from"),
+        ("learn --system cpm --world other --out new", "world"),
+        ("man", ""),
+        ("map --log other --out new", "log"),
+        ("map check other --maze other", "file maze"),
+        ("map check other --world other", "world"),
+        ("map plan other", "file"),
+        ("map show other --maze other", "file maze"),
+        ("map show other --world other", "world"),
+        ("maze check other", "files"),
+        ("maze convert other", "file"),
+        ("maze distinct other", "mazes"),
+        ("maze generate perfect", ""),
+        ("maze show other", "file"),
+        ("merge other", "results"),
+        ("mms-host --mouse true --maze other", "maze"),
+        ("mouse other", "maze"),
+        ("pitch gather pitch --out new", ""),
+        ("pitch score other", "file"),
+        ("pitch show other", "file"),
+        ("pitch world pitch", ""),
+        ("race other", "maze mouse"),
+        ("replay other", "traces"),
+        ("run avoid --maze other", "maze from"),
+        ("run avoid --world other", "world"),
+        ("score --trajectory other --truth other", "trajectory truth"),
+        ("score --trajectory other --relations other", "relations"),
+        ("trial --experiment baselines --chunk 1/1", "mazes"),
+    ];
+
+    /// Returns the command of a verb, and of each verb below it, with the verb's name.
+    fn verbs(name: &str, command: &Command, into: &mut Vec<(String, Command)>) {
+        into.push((name.trim_start().to_owned(), command.clone()));
+        for below in command.get_subcommands() {
+            verbs(&format!("{name} {}", below.get_name()), below, into);
+        }
+    }
+
+    fn is_of<T: 'static>(arg: &Arg) -> bool {
+        arg.get_value_parser().type_id() == TypeId::of::<T>()
+    }
+
+    /// Returns `words` with this value of an option.
+    fn with(words: &[String], arg: &Arg, value: &str) -> Vec<String> {
+        let mut words = words.to_vec();
+        let Some(long) = arg.get_long() else {
+            let place = words.iter().position(|word| word == "other");
+            match place {
+                Some(place) => words[place] = value.to_owned(),
+                None => words.push(value.to_owned()),
+            }
+            return words;
+        };
+        let option = format!("--{long}");
+        let place = words.iter().position(|word| *word == option);
+        if let Some(place) = place {
+            words[place + 1] = value.to_owned();
+            return words;
+        }
+        let end = words.iter().position(|word| word == "--");
+        let end = end.unwrap_or(words.len());
+        words.splice(end..end, [option, value.to_owned()]);
+        words
+    }
+
+    #[test]
+    fn no_output_of_any_verb_takes_the_place_of_an_input() {
+        let folder = env::temp_dir().join(format!("tolman-outputs-{}", std::process::id()));
+        fs::create_dir_all(&folder).unwrap();
+        let path = |name: &str| folder.join(name).display().to_string();
+        fs::write(path("input"), "precious").unwrap();
+        fs::hard_link(path("input"), path("hard")).unwrap();
+        symlink("input", path("soft")).unwrap();
+        let mut all = Vec::new();
+        verbs("", &Arguments::command(), &mut all);
+        let mut tried = 0;
+        for (verb, command) in &all {
+            let mut inputs = BTreeSet::new();
+            for (line, names) in VERBS {
+                let is_of_verb = line.strip_prefix(verb.as_str());
+                let is_of_verb =
+                    is_of_verb.is_some_and(|rest| rest.is_empty() || rest.starts_with(' '));
+                let words: Vec<String> = line.split(' ').map(str::to_owned).collect();
+                // A verb below this one has a line of its own.
+                let below = verb.split(' ').count();
+                let is_below = words
+                    .get(below)
+                    .is_some_and(|word| command.find_subcommand(word).is_some());
+                if !is_of_verb || is_below || verb.is_empty() {
+                    continue;
+                }
+                for input in names.split_whitespace() {
+                    inputs.insert(input);
+                    let input = command
+                        .get_arguments()
+                        .find(|arg| arg.get_id() == input)
+                        .unwrap();
+                    for output in command.get_arguments().filter(|arg| is_of::<Output>(arg)) {
+                        for name in ["input", "hard", "soft"] {
+                            let words = with(&words, input, &path("input"));
+                            let words = with(&words, output, &path(name));
+                            let words = ["tolman".to_owned()].into_iter().chain(words);
+                            let Ok(matches) =
+                                Arguments::command().try_get_matches_from(words.clone())
+                            else {
+                                // The two exclude each other.
+                                continue;
+                            };
+                            let checked = check(&matches);
+                            let goes_on = input.get_id() == "from" && output.get_id() == "out";
+                            let words: Vec<String> = words.collect();
+                            match checked {
+                                Ok(()) => assert!(goes_on, "{words:?}"),
+                                Err(Failure::BadInput(_)) => tried += 1,
+                                Err(failure) => panic!("{words:?}: {failure:?}"),
+                            }
+                        }
+                    }
+                }
+            }
+            let known = command.get_arguments().filter(|arg| is_of::<PathBuf>(arg));
+            let known: BTreeSet<&str> = known.map(|arg| arg.get_id().as_str()).collect();
+            assert_eq!(inputs, known, "{verb}: which of these does it read?");
+        }
+        assert!(tried > 100, "{tried}");
+        assert_eq!(fs::read_to_string(path("input")).unwrap(), "precious");
+        fs::remove_dir_all(&folder).unwrap();
+    }
 }

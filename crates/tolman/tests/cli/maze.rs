@@ -168,7 +168,7 @@ fn a_file_is_written_whole_or_not_at_all() {
             .unwrap()
             .contains("Corridor")
     );
-    convert("nowhere/out.maze").refused(1, &["nowhere/out.maze"]);
+    convert("nowhere/out.maze").refused(2, &["nowhere/out.maze"]);
     assert_eq!(
         std::fs::read_dir(&folder).unwrap().count(),
         2,

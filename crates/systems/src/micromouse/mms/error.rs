@@ -32,7 +32,7 @@ pub enum PlayError {
     /// No way leads to the goal.
     #[error("the mouse has found that no way leads to the goal: open a wall")]
     NoWay,
-    /// The mouse runs into walls that it does not see, or its reset button is pressed for ever.
+    /// The mouse runs into walls that it does not see, or its reset button is pressed forever.
     #[error(
         "the mouse crashed or was reset {times} times: make walls stand where the simulator says they do, and press \
          reset less often"
