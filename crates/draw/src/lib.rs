@@ -41,6 +41,8 @@
 #![doc = include_str!("../examples/floor_plan.rs")]
 #![doc = "```"]
 
+extern crate alloc;
+
 // What the signatures need, whole: see docs/architecture.md, API boundaries.
 pub use tolman_geom as geom;
 pub use tolman_robot as robot;

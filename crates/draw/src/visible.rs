@@ -1,4 +1,4 @@
-use std::borrow::Cow;
+use alloc::borrow::Cow;
 
 /// Returns a text in which every character that a reader cannot see stands as an escape of JSON,
 /// such as `\u202e`. So no text from outside moves the cursor of a terminal, or turns the words

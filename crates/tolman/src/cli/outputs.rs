@@ -271,8 +271,8 @@ fn refuse_same(input: &Named, output: &Named) -> Result {
 #[cfg(unix)]
 #[cfg(test)]
 mod tests {
+    use alloc::collections::BTreeSet;
     use core::any::TypeId;
-    use std::collections::BTreeSet;
     use std::env;
     use std::os::unix::fs::symlink;
 
