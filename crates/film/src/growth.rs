@@ -126,7 +126,7 @@ impl Growth {
     }
 
     /// Returns whether a node still stands for the place `id`, which now is at `at`. Some systems
-    /// number their places anew: then another place lies where this one was.
+    /// give their places other numbers now and then: then another place lies where this one was.
     fn is_same(&self, node: usize, id: u32, at: Point, placed: &[(MapPlace, Point)]) -> bool {
         let before = self.nodes[node].latest();
         let moved = (at - before).norm();

@@ -33,8 +33,8 @@ const FOOT: f64 = 34.0;
 /// Returns the first robot of a replay as an SVG that plays in a loop. It shows the robot's way,
 /// its map as it grew and, after it was first lifted, its belief.
 ///
-/// Its chapters are played in turn. Time is proportional to the driven distance, so that a slow robot does not make a long animation. Nodes of the map are drawn
-/// at their last positions.
+/// Its chapters are played in turn. Time is proportional to the driven distance, so that a slow
+/// robot does not make a long animation. Nodes of the map are drawn at their last positions.
 ///
 /// The SVG has no script and needs no network. A viewer that does not animate shows the end.
 /// O(poses + map).
