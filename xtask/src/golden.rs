@@ -47,8 +47,8 @@ const TABLES: &[(&str, &[&str])] = &[(
 )];
 
 /// Tables that are compared with every change, where those above take too long for it: a robot that
-/// goes home has learned before. Of those tables that have another number of runs, every change plays
-/// as many as of the others.
+/// goes home has learned before. Of tables that have another number of runs, every change plays as
+/// many as of the others.
 const QUICK_TABLES: &[(&str, &[&str])] = &[("arena", &["home, Pioneer", "conditions"])];
 
 /// Plays the runs of these experiments, or of all if none is named, and compares them with those in

@@ -109,8 +109,11 @@ impl Film {
             self.map(outing, step);
         }
         let words = outing.words();
-        if !words.is_empty() {
-            self.thoughts.say(step, words);
+        // What it thought before does not stay when it thinks nothing any more.
+        match words.is_empty() {
+            false => self.thoughts.say(step, words),
+            true if self.thoughts.notes.is_empty() => {}
+            true => self.thoughts.say(step, "–"),
         }
         let belief = outing.belief();
         if belief.is_empty() && self.belief.entries.is_empty() {

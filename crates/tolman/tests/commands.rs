@@ -9,12 +9,15 @@
 #![expect(clippy::print_stderr, reason = "it says what takes long")]
 #![cfg(unix)]
 
+extern crate alloc;
+
+use alloc::sync::Arc;
 use std::collections::HashMap;
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
-use std::sync::{Arc, Mutex, OnceLock};
+use std::sync::{Mutex, OnceLock};
 use std::thread;
 use std::time::Instant;
 
@@ -72,10 +75,12 @@ fn folder(name: &str) -> PathBuf {
     folder
 }
 
-/// The lines that needed nothing of the lines before them: how each ended, and where it wrote. Several
-/// pages show some of them.
+/// Where a line wrote, and how it ended, once it has run.
+type Once = Arc<OnceLock<(PathBuf, Output)>>;
+
+/// The lines that needed nothing of the lines before them. Several pages show some of them.
 #[derive(Default)]
-struct Ran(Mutex<HashMap<String, Arc<OnceLock<(PathBuf, Output)>>>>);
+struct Ran(Mutex<HashMap<String, Once>>);
 
 impl Ran {
     /// Runs a line in `page`, or copies there what it wrote for another page.

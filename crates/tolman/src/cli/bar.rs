@@ -45,12 +45,12 @@ const PERIOD: Duration = Duration::from_millis(200);
 
 /// Returns a sign on the terminal that the program is at work on something, with the time so far.
 /// It stays hidden if the run itself is shown.
-pub(super) fn busy(what: String, is_shown: bool) -> ProgressBar {
+pub(super) fn busy(what: &str, is_shown: bool) -> ProgressBar {
     if is_shown {
         return ProgressBar::hidden();
     }
     let bar = bar(0, "{spinner} {msg}, {elapsed}");
-    bar.set_message(visible(&what).into_owned());
+    bar.set_message(visible(what).into_owned());
     bar.enable_steady_tick(PERIOD);
     bar
 }

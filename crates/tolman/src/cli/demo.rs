@@ -14,6 +14,7 @@ use super::live::{Live, Scene};
 use super::looks::LIVE;
 use super::outputs::{self, Output};
 use super::replay_file::{self, Overwrite};
+use super::words::counted;
 use super::{App, Failure, OrBadInput, Result, file, maze};
 
 /// Lets a robot explore a maze, moves it elsewhere, lets it localize and drive to the goal; writes
@@ -210,8 +211,9 @@ fn tell(contest: &Contest<'_>, record: &ShowRecord, out: &mut dyn Write) -> Resu
         )?,
         (LocateOutcome::Right, true) => writeln!(
             out,
-            "Put down elsewhere, it found out where it is after {} moves, {:.1} m.",
-            found.actions, found.metres
+            "Put down elsewhere, it found out where it is after {}, {:.1} m.",
+            counted(found.actions as usize, "move"),
+            found.metres
         )?,
         (LocateOutcome::Wrong, true) => {
             writeln!(out, "Put down elsewhere, it named a place where it is not.")?;

@@ -1,6 +1,6 @@
 //! `tolman systems`: lists the systems.
 
-use std::collections::BTreeMap;
+use alloc::collections::BTreeMap;
 use std::io::Write;
 
 use anyhow::Context;

@@ -129,7 +129,7 @@ impl Arguments {
         };
         let mut config = AuditConfig::standard();
         config.sigma_scale = scale;
-        let bar = busy("auditing".to_owned(), false);
+        let bar = busy("auditing", false);
         let audit = audit(&file.graph, &config).or_bad_input();
         bar.finish_and_clear();
         Ok(Audited {

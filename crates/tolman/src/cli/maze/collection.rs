@@ -82,7 +82,7 @@ pub(in crate::cli) fn each<'a, T: Send>(
 ) -> Result {
     // A single maze may be drawn on the terminal, so it runs on this thread.
     if let [(file, maze)] = mazes {
-        let busy = busy(input::name(file), looks.live);
+        let busy = busy(&input::name(file), looks.live);
         let done = work(file, maze);
         busy.finish_and_clear();
         return tell(done?);
