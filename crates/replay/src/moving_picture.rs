@@ -434,7 +434,8 @@ mod tests {
         let svg = moving_picture(&replay());
         assert!(svg.contains(">away<") && svg.contains(">again<"));
         // Of the two beliefs, the one before the robot was lifted is not shown.
-        assert_eq!(svg.matches("<circle").count(), 1);
+        // Two discs are in the key.
+        assert_eq!(svg.matches("<circle").count(), 2 + 1);
         // The second node and the link appear together.
         let born = "keyTimes=\"0;0.2375\"";
         assert_eq!(svg.matches(born).count(), 2, "{svg}");
