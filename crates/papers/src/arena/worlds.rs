@@ -1,5 +1,6 @@
 use std::path::{Path, PathBuf};
 
+use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use tolman_arena::contest::{Condition, Contest};
@@ -7,7 +8,7 @@ use tolman_arena::family::{Family, FamilySize};
 use tolman_arena::registry::{Registry, RobotEntry, SystemEntry};
 use tolman_experiment::files::files_in;
 use tolman_experiment::{BoxError, run_seed};
-use tolman_maze::Maze;
+use tolman_maze::{Cell, Direction, Maze};
 
 use crate::maze_file;
 
@@ -21,6 +22,19 @@ pub(crate) fn drawn(
     let family =
         Family::named(&families, family).ok_or_else(|| format!("there is no family {family:?}"))?;
     (family.draw)(family.size(size), rng)
+}
+
+/// Returns a maze with its start, or else with a random one, at which all systems begin.
+fn with_start(maze: &Maze, seed: u64) -> Maze {
+    let mut maze = maze.clone();
+    let ways = maze.reachable().filter(|cell| !maze.goals().contains(cell));
+    let ways = ways.filter_map(|cell| Some((cell, maze.neighbours(cell).next()?.0)));
+    let ways: Vec<(Cell, Direction)> = ways.collect();
+    if maze.start().is_none() && !ways.is_empty() {
+        let rng = &mut ChaCha8Rng::seed_from_u64(seed);
+        maze.set_start(Some(ways[rng.random_range(0..ways.len() as u32) as usize]));
+    }
+    maze
 }
 
 /// A kind of world that contests are held in.
@@ -148,7 +162,7 @@ impl ArenaWorld {
                 let maze = (family.draw)(family.size(size), rng)?;
                 (format!("{} {number}", family.name), maze)
             }
-            Self::File { name, maze, .. } => (name.clone(), maze.clone()),
+            Self::File { name, maze, .. } => (name.clone(), with_start(maze, seed)),
         };
         Ok(DrawnWorld {
             name,
