@@ -245,8 +245,10 @@ impl MouseResult for Hosted {
         let whole = hosted.iter().map(|(_, hosted)| hosted);
         let whole = whole.filter(|hosted| hosted.ended != MouseExit::Interrupted);
         let count = whole.clone().count();
-        let mean =
-            |score: fn(&Self) -> f32| whole.clone().map(score).sum::<f32>() / count.max(1) as f32;
+        if count == 0 {
+            return "no maze was finished".to_owned();
+        }
+        let mean = |score: fn(&Self) -> f32| whole.clone().map(score).sum::<f32>() / count as f32;
         let solved = whole.clone().filter(|hosted| hosted.solved).count();
         format!(
             "{solved} of {count} solved, mean score {:.1} ({:.1} in cells)",

@@ -21,6 +21,7 @@ use tolman_geom::Pose;
 
 use super::kind::Kind;
 use super::outputs::{self, Output};
+use super::words::counted;
 use super::{Failure, OrBadInput, Result, Unboxed, called, file};
 
 /// Options to save and continue an interrupted run, for verbs that save nothing else.
@@ -336,7 +337,11 @@ impl Keeper {
             return failure;
         }
         let Done { actions, steps } = self.again().unwrap_or(self.done);
-        let told = format!("interrupted after {actions} actions, {steps} steps");
+        let told = format!(
+            "interrupted after {}, {}",
+            counted(actions as usize, "action"),
+            counted(steps as usize, "step")
+        );
         Failure::Interrupted(match self.saving {
             Saving::Never => anyhow!(told),
             _ => anyhow!("{told}; go on with: {}", called::going_on(&self.path)),
