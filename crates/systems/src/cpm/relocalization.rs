@@ -77,8 +77,12 @@ impl Relocalization {
         let walk = if place == 0 {
             self.set_off(walker)?
         } else {
-            let turn = onward(&self.localizer, self.degree, rng);
-            self.localizer.turn(turn)?;
+            let mut turn = onward(&self.localizer, self.degree, rng);
+            // No map may have as many ways out as there are here.
+            if self.localizer.turn(turn).is_err() {
+                turn = Turn::BACK;
+                self.localizer.turn(turn)?;
+            }
             walker.walk(turn.0 as usize, 0, None)?
         };
         self.arrive(walker, walk)?;

@@ -534,10 +534,6 @@ impl<R: CpmRobot> System<R> for Cpm {
             (Stance::AtPlace(resting), Task::Reach(goal)) => self.reach(robot, *resting, goal),
             (lost, task) => {
                 self.standing = lost;
-                let mut known = self.known.iter().map(|map| map.fragments().len());
-                if !self.known.is_empty() && known.all(|ways| ways == 0) {
-                    return Ok(Standing::gave_up("the map has no ways to drive"));
-                }
                 if self.layer.is_none() && task != Task::Localize {
                     return self.begin(robot);
                 }
