@@ -61,7 +61,7 @@ fn a_map_that_is_unfinished_spoiled_or_of_another_maze_is_told_of() {
     let folder = folder("mslst-better-unfinished");
     fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
     let few = [&LEARN[..], &["--steps", "1"]].concat();
-    tolman_in(&folder, &few).failed(1, &["map.json is wrong or unfinished", "--steps"]);
+    tolman_in(&folder, &few).failed(1, &["map.json is wrong or unfinished", "ran out of time"]);
     let check = ["map", "check", "map.json", "--maze", "corridor.maze"];
     tolman_in(&folder, &check).refused(1, &["wrong or unfinished"]);
     let plan = ["map", "plan", "map.json", "--to", "999"];

@@ -85,7 +85,7 @@ fn a_replay_lies_beside_its_trace() {
     tolman_in(&folder, &["replay", "random.jsonl", "--force"]).done();
 
     tolman_in(&folder, &["replay", "avoid.jsonl", "--out", "avoid.jsonl"])
-        .refused(2, &["the trace itself"]);
+        .refused(2, &["writes no .jsonl file"]);
 }
 
 #[test]
