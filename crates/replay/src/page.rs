@@ -85,7 +85,10 @@ fn compact(source: &str) -> String {
         let drop = match c {
             _ if quoted => false,
             ' ' => separates(last) || rest.peek().is_some_and(|next| separates(*next)),
-            '\n' => ";,{([".contains(last),
+            '\n' => {
+                let closes = |next: &char| "})],;.?:".contains(*next);
+                ";,{([".contains(last) || rest.peek().is_some_and(closes)
+            }
             _ => false,
         };
         if !drop {

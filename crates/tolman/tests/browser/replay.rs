@@ -126,7 +126,7 @@ fn a_run_of_5000_steps_is_small_and_smooth() {
     assert_eq!(tab.whole("tolmanReplay.run.last"), 5000);
     let frames = frames(&mut tab);
     tell(&format!("5000 steps: {bytes} bytes, {frames}"));
-    assert!(bytes < 100_000, "{bytes} bytes");
+    assert!(bytes < 102_000, "{bytes} bytes");
     // 16 are wanted, and 3 seen; a machine with ten other things to do at once is forgiven.
     assert!(frames.median < 60.0, "{frames}");
     tab.assert_content();
