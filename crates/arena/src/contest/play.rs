@@ -218,7 +218,7 @@ impl Located {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Home {
     /// Driven distance over that of the shortest way; `None` if it did not arrive within
-    /// [`Contest::most_home`].
+    /// [`Contest::LIMIT`] times that length and the length of all corridors.
     pub over_shortest: Option<f64>,
     /// Number of time steps in which the robot touched something.
     pub bumps: u32,
