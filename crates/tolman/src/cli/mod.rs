@@ -238,7 +238,12 @@ pub fn run(catalogue: &Catalogue, build: &Build) -> ExitCode {
         catalogue: catalogue.clone(),
         build: build.clone(),
     };
-    let done = interrupt::ends_the_program().map_err(|error| Failure::Failed(error.into()));
+    // The keeper stays until it has ended what it keeps.
+    let handled = match arguments.verb {
+        Verb::Keep(_) => Ok(()),
+        _ => interrupt::ends_the_program(),
+    };
+    let done = handled.map_err(|error| Failure::Failed(error.into()));
     let done = done.and_then(|()| outputs::check(&matches));
     let done = done.and_then(|()| arguments.verb.carry_out(&app, &mut out));
     // Results come before the failure, even if both streams go to one place.
