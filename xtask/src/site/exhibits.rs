@@ -9,7 +9,8 @@ use anyhow::{Context, Result, ensure};
 use crate::workspace::root;
 
 /// What the command writes: the page in the folder of the site, and the words of the command, in
-/// which `OUT` stands for the page's file, or its folder if the page is in one.
+/// which `OUT` stands for the page's file, or its folder if the page is in one, and `MAP` for a file
+/// that nobody needs afterwards.
 pub(super) struct Exhibit {
     pub(super) page: &'static str,
     words: &'static str,
@@ -57,16 +58,13 @@ pub(super) const EXHIBITS: &[Exhibit] = &[
     ),
     exhibit(
         "replays/rooms.html",
-        "learn --system mslst --world mazes/worlds/rooms.json --replay OUT",
+        "learn --system mslst --world mazes/worlds/rooms.json --set scan_steps=3000 --set graph_actions=5000 --out MAP --replay OUT",
     ),
     exhibit(
         "office/replay.html",
         "map --log logs/office.clf.gz --out OUT",
     ),
-    exhibit(
-        "audit/report.html",
-        "audit mazes/graphs/rooms.g2o --out OUT",
-    ),
+    exhibit("audit/audit.html", "audit mazes/graphs/rooms.g2o --out OUT"),
     exhibit(
         "report/report.html",
         "experiment baselines --quick --out OUT",
@@ -82,7 +80,7 @@ pub(super) const BEHIND: &[(&str, &str)] = &[
     ("gngslam-map.png", "replays/gng-slam.html"),
     ("gngslam-driven.svg", "replays/gng-slam-better.html"),
     ("office-map.png", "office/replay.html"),
-    ("audit.png", "audit/report.html"),
+    ("audit.png", "audit/audit.html"),
     ("arena-heat-map.svg", "replays/cpm-better.html"),
 ];
 
@@ -106,6 +104,7 @@ pub(super) fn make(tolman: &Path, out: &Path) -> Result<()> {
         for word in words.split(' ') {
             match word {
                 "OUT" => command.arg(target),
+                "MAP" => command.arg(tolman.with_file_name("site-map.json")),
                 word => command.arg(word),
             };
         }
