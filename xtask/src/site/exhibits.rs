@@ -9,8 +9,8 @@ use anyhow::{Context, Result, ensure};
 use crate::workspace::root;
 
 /// What the command writes: the page in the folder of the site, and the words of the command, in
-/// which `OUT` stands for the page's file, or its folder if the page is in one, and `MAP` for a file
-/// that nobody needs afterwards.
+/// which `OUT` stands for the page's file, or its folder if the page is in one. `MAP` stands for a
+/// file that nobody needs afterwards.
 pub(super) struct Exhibit {
     pub(super) page: &'static str,
     words: &'static str,
