@@ -199,21 +199,30 @@ fn who_has_the_true_map_finds_out_where_it_is() {
     assert_eq!(record.found[0].outcome, LocateOutcome::Right);
 }
 
+/// Returns a contest in the drawing of blocks, without a way home.
+fn in_blocks<'a>(
+    maze: &'a Maze,
+    contestant: &'static dyn SystemEntry,
+    condition: Condition,
+) -> Contest<'a> {
+    Contest {
+        contestant,
+        robot: None,
+        maze,
+        name: "blocks",
+        condition,
+        starts: 0,
+        seed: 3,
+        stopwatch: None,
+    }
+}
+
 #[test]
-fn under_each_condition_a_contest_ends() {
+fn under_each_condition_a_contest_ends_and_repeats() {
     let schooling = Schooling::default();
     let maze = drawn("blocks");
     let played = |contestant, condition| {
-        let contest = Contest {
-            contestant,
-            robot: None,
-            maze: &maze,
-            name: "blocks",
-            condition,
-            starts: 0,
-            seed: 3,
-            stopwatch: None,
-        };
+        let contest = in_blocks(&maze, contestant, condition);
         contest.play(&schooling, |_, _| {}).unwrap()
     };
     for contestant in [system("cpm-better"), system("diktiometry-better")] {
@@ -223,6 +232,7 @@ fn under_each_condition_a_contest_ends() {
             let driven = record.learned.as_ref().unwrap().driven;
             assert!(driven < 1.2 * Contest::LIMIT, "{condition:?}: {driven}");
             let told = format!("{record:?}");
+            assert_eq!(told, format!("{:?}", played(contestant, condition)));
             // An e-puck has no compass, and its wheels slip by a fresh share even as made.
             let is_untouched = contestant.name() == "cpm-better"
                 && matches!(
@@ -245,16 +255,7 @@ fn who_is_kidnapped_or_misses_readings_learns_its_map_all_the_same() {
         (system("mslst-better"), Condition::Kidnapping),
         (system("mslst-better"), Condition::DropOuts),
     ] {
-        let contest = Contest {
-            contestant,
-            robot: None,
-            maze: &maze,
-            name: "blocks",
-            condition,
-            starts: 0,
-            seed: 3,
-            stopwatch: None,
-        };
+        let contest = in_blocks(&maze, contestant, condition);
         let learned = contest.play(&schooling, |_, _| {}).unwrap().learned;
         let learned = learned.unwrap();
         let told = format!("{contestant:?}, {condition:?}: {learned:?}");

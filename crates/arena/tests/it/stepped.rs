@@ -11,14 +11,7 @@ const STAR: &str = include_str!("../../mazes/star.maze");
 fn step_by_step_it_is_the_same_show() {
     let maze = tolman_maze::read(STAR).unwrap().maze;
     let schooling = Schooling::default();
-    let names = [
-        "mslst-better",
-        "cpm-better",
-        "diktiometry-better",
-        "gng-slam",
-        "micromouse",
-    ];
-    for contestant in names.map(|name| Registry::current().system(name).unwrap()) {
+    for contestant in Registry::current().learners() {
         let contest = Contest {
             contestant,
             robot: None,
