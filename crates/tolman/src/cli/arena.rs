@@ -42,6 +42,9 @@ pub(super) struct Arguments {
     /// Maze files, or folders of them, to use instead of the families
     #[arg(value_name = "MAZE")]
     mazes: Vec<PathBuf>,
+    /// The same as MAZE
+    #[arg(long = "maze", value_name = "FILE|DIR")]
+    maze_files: Vec<PathBuf>,
     /// System to send, or `all`
     #[arg(long, value_name = "NAME", default_value = "all")]
     system: String,
@@ -56,7 +59,7 @@ pub(super) struct Arguments {
         long,
         value_name = "NAME",
         default_value = "all",
-        conflicts_with = "mazes"
+        conflicts_with_all = ["mazes", "maze_files"]
     )]
     family: String,
     /// Number of worlds of each family, small and middle sizes in turn; with --own-verdict the
@@ -78,7 +81,7 @@ pub(super) struct Arguments {
     cost: bool,
     /// Judge what systems say about their own maps, on 100 right and 100 wrong maps; worlds become
     /// harder while most maps are right
-    #[arg(long, conflicts_with_all = ["mazes", "json", "cost", "condition", "starts"])]
+    #[arg(long, conflicts_with_all = ["mazes", "maze_files", "json", "cost", "condition", "starts"])]
     own_verdict: bool,
 }
 
@@ -218,9 +221,10 @@ fn condition(app: &App, name: &str) -> Result<Condition> {
 
 impl Arguments {
     fn kinds(&self, app: &App) -> Result<Vec<ArenaWorld>> {
-        Ok(match (self.mazes.is_empty(), self.family.as_str()) {
+        let paths = [self.mazes.as_slice(), &self.maze_files].concat();
+        Ok(match (paths.is_empty(), self.family.as_str()) {
             (false, _) => {
-                let files = ArenaWorld::of_files(&self.mazes).unboxed().or_bad_input()?;
+                let files = ArenaWorld::of_files(&paths).unboxed().or_bad_input()?;
                 for file in &files {
                     if let ArenaWorld::File {
                         name,
@@ -242,7 +246,7 @@ impl Arguments {
 
     fn worlds(&self, app: &App) -> Result<Vec<DrawnWorld>> {
         let kinds = self.kinds(app)?;
-        let count = match self.mazes.is_empty() {
+        let count = match self.mazes.is_empty() && self.maze_files.is_empty() {
             true => self.worlds.unwrap_or(WORLDS),
             false => 1,
         };

@@ -12,6 +12,7 @@ use tolman_replay::{Chapter, Mark, Marks, Replay, moving_picture};
 
 use super::live::{Live, Scene};
 use super::looks::LIVE;
+use super::mice::MazePath;
 use super::outputs::{self, Output};
 use super::replay_file::{self, Overwrite};
 use super::words::counted;
@@ -33,13 +34,18 @@ Examples:
   tolman demo --system cpm-better
   tolman demo --system micromouse --out mouse.html
   tolman demo --maze mazes/forks.maze --seed 3 --svg forks.svg")]
+#[command(
+    mut_arg("maze", |arg| arg
+        .value_name("MAZE")
+        .help("Maze file with a goal [default: a maze that comes with the program]")),
+    mut_arg("maze_file", |arg| arg.value_name("FILE"))
+)]
 pub(super) struct Arguments {
     /// System that drives
     #[arg(long, value_name = "NAME", default_value = "mslst-better")]
     system: String,
-    /// Maze file with a goal [default: a maze that comes with the program]
-    #[arg(long, value_name = "FILE")]
-    maze: Option<PathBuf>,
+    #[command(flatten)]
+    maze: MazePath,
     /// Seed of all noise, and of the place where the robot is put down [default: one that shows the
     /// system well]
     #[arg(long, value_name = "N")]
@@ -75,7 +81,7 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
         DemoWorld::Small => SMALL,
         DemoWorld::Large => MAZE,
     };
-    let (name, maze) = match &arguments.maze {
+    let (name, maze) = match arguments.maze.path() {
         Some(path) => {
             let file = maze::read(path)?;
             (maze::world_name(path, &file), file.maze)

@@ -1,4 +1,5 @@
-//! The maze or world of a run: `--maze FILE`, or `--world FILE` with `--goal` and `--corridor`.
+//! The maze or world of a run: `MAZE` or `--maze FILE`, or `--world FILE` with `--goal` and
+//! `--corridor`.
 
 use std::path::{Path, PathBuf};
 
@@ -15,11 +16,14 @@ use super::{Failure, OrBadInput, Result, maze, outputs};
 
 /// The maze or world that robots are sent into.
 #[derive(clap::Args)]
-#[command(group(ArgGroup::new("ground").args(["maze", "world"])))]
+#[command(group(ArgGroup::new("ground").args(["maze", "maze_file", "world"])))]
 pub(super) struct Ground {
     /// Maze file of any format; - reads standard input
-    #[arg(long, value_name = "FILE")]
+    #[arg(value_name = "MAZE")]
     maze: Option<PathBuf>,
+    /// The same as MAZE
+    #[arg(long = "maze", value_name = "FILE")]
+    maze_file: Option<PathBuf>,
     /// World with free walls, instead of a maze: a tolman-world file (JSON), or the .yaml of a ROS
     /// map with its picture beside it. Unknown cells of a ROS map count as occupied; - reads a
     /// tolman-world from standard input
@@ -39,9 +43,9 @@ pub(super) struct Ground {
     corridor: Option<f64>,
 }
 
-/// Returns the group that requires one of `--maze` and `--world`.
+/// Returns the group that requires a maze or `--world`.
 pub(super) fn required() -> ArgGroup {
-    let either = ArgGroup::new("either").args(["maze", "world"]);
+    let either = ArgGroup::new("either").args(["maze", "maze_file", "world"]);
     either.required(true)
 }
 
@@ -62,7 +66,7 @@ impl Ground {
     /// # Errors
     /// Bad input if neither is given, or it cannot be read.
     pub(super) fn read(&self) -> Result<(String, Terrain)> {
-        if let Some(path) = &self.maze {
+        if let Some(path) = self.maze.as_ref().or(self.maze_file.as_ref()) {
             self.refuse_in_maze()?;
             let file = maze::read(path)?;
             return Ok((maze::world_name(path, &file), file.into()));

@@ -82,7 +82,7 @@ const TEMPLATE: &str = include_str!("host/brain.py");
 
 /// Returns the group that requires a maze, a world or `--template`.
 fn ground_or_template() -> ArgGroup {
-    let either = ArgGroup::new("either").args(["maze", "world", "template"]);
+    let either = ArgGroup::new("either").args(["maze", "maze_file", "world", "template"]);
     either.required(true)
 }
 

@@ -13,7 +13,7 @@ use super::maze::Collection;
 use super::mouse::Way;
 use super::{Failure, Result, maze};
 
-/// Maze file or folder that a mouse is sent through, as MAZE or as --maze.
+/// Maze file or folder that robots are sent through, as MAZE or as --maze.
 #[derive(clap::Args)]
 pub(super) struct MazePath {
     /// Maze file of any format, or a folder of them
@@ -29,6 +29,13 @@ impl MazePath {
     pub(super) fn path(&self) -> Option<&Path> {
         self.maze.as_deref().or(self.maze_file.as_deref())
     }
+}
+
+/// Returns the group that requires a maze.
+pub(super) fn required() -> ArgGroup {
+    ArgGroup::new("one")
+        .args(["maze", "maze_file"])
+        .required(true)
 }
 
 /// Returns the group that requires a maze or the flag `other`, and no two of them.

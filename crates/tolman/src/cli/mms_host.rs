@@ -4,9 +4,9 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use core::sync::atomic::Ordering;
 use core::time::Duration;
 use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use anyhow::{Error, anyhow};
+use anyhow::{Context, Error, anyhow};
 use serde_json::{Value, json};
 use tolman_arena::foreign::{Launch, Log};
 use tolman_arena::micromouse::SideSeen;
@@ -16,13 +16,15 @@ use tolman_maze::{Cell, Direction, Grid, Maze};
 
 use super::looks::Looks;
 use super::maze::Collection;
-use super::mice::{MouseResult, all_solved, summarize, tell};
+use super::mice::{MazePath, MouseResult, all_solved, required, summarize, tell};
 use super::mouse::{Came, PITCH, Way, WayStep, half_cells};
 use super::{Failure, OrBadInput, Result, interrupt, keep, maze};
 
 /// Hosts a mouse that speaks the protocol of the simulator mms, without a window, and scores it
 #[derive(clap::Args)]
-#[command(after_help = "\
+#[command(
+    group(required()),
+    after_help = "\
 The mouse starts in the south-west cell and looks north; the goal is the middle of the maze. Its score
 is the best run's turns and effective distance, plus a tenth of all turns and effective distance. Less is
 better, and 2000 means unsolved. The code of mms measures in half-steps, its README in cells; both scores are shown.
@@ -37,14 +39,14 @@ Ctrl-C ends the mice and shows the scores so far.
 Examples:
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/braided-2.txt
   tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/small-1.txt --json
-  tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/small-1.txt --replay hosted.html")]
+  tolman mms-host --mouse 'tolman mouse --mms' --maze mazes/grid/small-1.txt --replay hosted.html"
+)]
 pub(super) struct Arguments {
     /// Command that starts the mouse. It is split into words as by a shell, but run without one
     #[arg(long, value_name = "CMD")]
     mouse: String,
-    /// Maze file of any format, or a folder of them
-    #[arg(long, value_name = "FILE|DIR")]
-    maze: PathBuf,
+    #[command(flatten)]
+    maze: MazePath,
     /// Stop a mouse after this time in a maze
     #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
     time_limit: f64,
@@ -75,7 +77,8 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
         .or_bad_input()?;
     let limits = arguments.limits()?;
     let looks = &arguments.looks;
-    let Collection { mazes, mut unsound } = Collection::read(&arguments.maze, looks)?;
+    let Collection { mazes, mut unsound } =
+        Collection::read(arguments.maze.path().context("a maze")?, looks)?;
     let stop = interrupt::flag()?;
     let keeper = keep::keeper();
     let mouse = Launch {

@@ -5,6 +5,7 @@ use core::sync::atomic::Ordering;
 use std::io::Write;
 
 use anyhow::{Context, anyhow};
+use clap::ArgGroup;
 use serde_json::json;
 use tolman_arena::cast::Cast;
 use tolman_arena::episode::{self, Episode, EpisodeError, Trial};
@@ -27,6 +28,7 @@ use super::{App, Failure, OrBadInput, Result, Unboxed, interrupt, picture};
 #[derive(clap::Args)]
 #[command(
     group(required()),
+    group(ArgGroup::new("who").args(["brain", "system"]).required(true)),
     after_help = "\
 The same brain, maze, start and seed make the same run, on any machine. To repeat the run of a line in runs.jsonl,
 give its --seed, --start random, and as --steps the step_limit of its world in config.toml.
@@ -42,7 +44,10 @@ Examples:
 pub(super) struct Arguments {
     /// Brain that chooses the actions: a baseline of `tolman systems`
     #[arg(value_name = "BRAIN")]
-    brain: String,
+    brain: Option<String>,
+    /// The same as BRAIN
+    #[arg(long, value_name = "NAME")]
+    system: Option<String>,
     #[command(flatten)]
     ground: Ground,
     /// Seed of all random numbers of the run: the same seed gives the same run
@@ -61,7 +66,10 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -> Result {
-    let brain = app.system(&arguments.brain, |system| system.baseline().is_some())?;
+    let brain = arguments.brain.as_ref().or(arguments.system.as_ref());
+    let brain = app.system(brain.context("a brain")?, |system| {
+        system.baseline().is_some()
+    })?;
     let (word, title) = (brain.name(), brain.title());
     let looks = &arguments.looks;
     looks.check()?;
