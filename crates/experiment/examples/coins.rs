@@ -30,7 +30,8 @@ const COINS: Entry = Entry {
     source: "",
     runs: 1000,
     quick_runs: 10,
-    tour: None,
+    main: &[],
+    tour: &[],
     open: |_| {
         let table = Table::of::<Game>("1", "A fair coin")
             .metric(Metric::mean(Game::tosses))

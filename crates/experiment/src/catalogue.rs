@@ -15,20 +15,49 @@ pub struct Entry {
     pub runs: u32,
     /// Number of runs of each row with `--quick`, for a first look.
     pub quick_runs: u32,
-    /// Part in the tour of all experiments; `None` to leave it out.
-    pub tour: Option<Tour>,
+    /// Names of the main tables, which come first on the page.
+    pub main: &'static [&'static str],
+    /// Lines in the tour of all experiments.
+    pub tour: &'static [Headline],
     /// Prepares the experiment: reads the mazes that the options name.
     pub open: fn(&Options) -> Result<Experiment, BoxError>,
 }
 
-/// Part of an experiment in the tour of all: its main tables, in a few seconds.
+/// A line in the tour of all experiments: one value beside the paper's, or beside a rival's, in a
+/// few seconds.
 #[derive(Clone, Copy, Debug)]
-pub struct Tour {
-    /// The names of the tables.
-    pub tables: &'static [&'static str],
+pub struct Headline {
+    /// Title of the system.
+    pub system: &'static str,
+    /// What is measured, in at most 28 characters.
+    pub measures: &'static str,
+    /// Name of the table.
+    pub table: &'static str,
+    /// Name of the row.
+    pub row: &'static str,
+    /// Name of the metric.
+    pub metric: &'static str,
+    /// Value beside which it stands.
+    pub beside: Beside,
     /// Number of runs of each row. `None` takes that of `--quick`, as tables with a fixed number
     /// require.
     pub runs: Option<u32>,
+}
+
+/// What a [`Headline`] is compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Beside {
+    /// The paper's value.
+    Paper,
+    /// Another row of the table.
+    Rival {
+        /// Name of the row.
+        row: &'static str,
+        /// What the tour calls it.
+        called: &'static str,
+    },
+    /// Nothing that is known to do the same.
+    Nothing,
 }
 
 /// Returns the experiment called `name`, prepared with `options`.

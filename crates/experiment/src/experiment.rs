@@ -35,7 +35,8 @@ use tolman_replay::Replay;
 ///     source: "",
 ///     runs: 1000,
 ///     quick_runs: 10,
-///     tour: None,
+///     main: &[],
+///     tour: &[],
 ///     open: |_: &Options| {
 ///         let table = Table::of::<Game>("1", "A fair coin")
 ///             .metric(Metric::mean(Game::tosses))

@@ -60,12 +60,13 @@ mod table;
 mod tally;
 mod terminal;
 mod text;
+mod tour;
 mod verdict;
 mod verify;
 
 pub use analysis::{Analysis, Contrast, Measured, MetricAnalysis, TableAnalysis};
 pub use build::Build;
-pub use catalogue::{Entry, Tour, open};
+pub use catalogue::{Beside, Entry, Headline, open};
 pub use choices::choices;
 pub use chunk::{Chunk, ChunkError};
 pub use column::{Better, Column, Kind, Presence, Value};
@@ -91,6 +92,7 @@ pub use table::{
 pub use tally::VerdictTally;
 pub use terminal::Terminal;
 pub use text::{Ink, tables_as_text, wrapped};
+pub use tour::TourLine;
 pub use verdict::{Doubt, Finding, Verdict};
 pub use verify::{Verification, verify};
 

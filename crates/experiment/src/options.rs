@@ -4,7 +4,7 @@ use std::env;
 use std::path::{Path, PathBuf};
 use std::thread;
 
-use super::{Chunk, Entry, Tour};
+use super::{Beside, Chunk, Entry, Headline};
 use crate::shell::quoted;
 
 /// Program that the caller runs experiments with.
@@ -96,14 +96,19 @@ impl Options {
         self.runs.unwrap_or(if self.quick { quick } else { full })
     }
 
-    /// Returns the options for this experiment in the tour of all, in a folder below that of the
-    /// tour.
+    /// Returns the options for a line of the tour, with its own folder.
     #[must_use]
-    pub fn on_tour(&self, tour: &Tour, folder: &Path) -> Self {
+    pub fn on_tour(&self, line: &Headline, folder: &Path) -> Self {
+        let rival = match line.beside {
+            Beside::Rival { row, .. } => Some(row),
+            Beside::Paper | Beside::Nothing => None,
+        };
+        let rows = [Some(line.row), rival].into_iter().flatten();
         Self {
-            runs: tour.runs,
-            quick: tour.runs.is_none(),
-            tables: tour.tables.iter().map(ToString::to_string).collect(),
+            runs: line.runs,
+            quick: line.runs.is_none(),
+            tables: vec![line.table.to_owned()],
+            rows: rows.map(str::to_owned).collect(),
             out: Some(folder.to_owned()),
             ..self.clone()
         }

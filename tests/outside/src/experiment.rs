@@ -18,7 +18,8 @@ pub const ENTRY: Entry = Entry {
     source: "",
     runs: 20,
     quick_runs: 5,
-    tour: None,
+    main: &[],
+    tour: &[],
     open,
 };
 

@@ -18,6 +18,9 @@ const WIDTH: f64 = 1200.0;
 /// Height of the page's head with abstract, cards and contents, and of what follows the tables, px.
 const HEAD: f64 = 620.0;
 
+/// Maximum number of rows that a table shows, except for those of its first metric.
+const ROWS: usize = 16;
+
 /// Height of a folded table, px.
 const FOLDED: f64 = 56.0;
 
@@ -49,10 +52,6 @@ pub(super) struct Shown {
 pub(super) struct Folds {
     /// Remaining height, px.
     left: f64,
-    /// Maximum number of rows that a table shows, except for those of its first metric.
-    rows: usize,
-    /// Whether tables show figures.
-    figures: bool,
 }
 
 /// A table with its figures.
@@ -80,21 +79,7 @@ impl<'a> Part<'a> {
 impl Folds {
     /// Returns the budget for the page of one experiment.
     pub(super) const fn of_report() -> Self {
-        Self {
-            left: STORY - HEAD,
-            rows: 16,
-            figures: true,
-        }
-    }
-
-    /// Returns the budget for a tour of `experiments` experiments.
-    pub(super) fn of_tour(experiments: usize) -> Self {
-        // Each experiment has a heading, its source and the command that repeats it.
-        Self {
-            left: STORY - 340.0 - 165.0 * experiments as f64,
-            rows: 6,
-            figures: false,
-        }
+        Self { left: STORY - HEAD }
     }
 
     /// Returns the open parts of each table, in order.
@@ -131,7 +116,7 @@ impl Folds {
         let (mut metrics, mut rows) = (0, 0);
         for metric in table::varying(analysis) {
             let more = rows + metric.rows.len();
-            if metrics > 0 && more > self.rows {
+            if metrics > 0 && more > ROWS {
                 break;
             }
             metrics += 1;
@@ -139,10 +124,7 @@ impl Folds {
         }
         let notes = 44.0 * (analysis.table.missing().len() + 2) as f64;
         let mut height = 150.0 + notes + row * rows as f64 + heading * metrics as f64;
-        let (line, line_height) = match self.figures {
-            true => first_line(&part.figures),
-            false => (0, 0.0),
-        };
+        let (line, line_height) = first_line(&part.figures);
         height += line_height;
         let open = height <= self.left;
         if open {

@@ -29,7 +29,7 @@ use folds::{Folds, Part};
 
 /// Returns the whole page.
 pub(crate) fn html(outcome: &ExperimentOutcome) -> String {
-    let main = outcome.entry.tour.map_or(&[][..], |tour| tour.tables);
+    let main = outcome.entry.main;
     let tables = outcome.analysis.tables.iter();
     let parts: Vec<Part<'_>> = tables
         .map(|table| {

@@ -1,12 +1,13 @@
-//! The page of a tour: the tables of several experiments.
+//! The page of a tour: one table with a line for each system, and a moving picture.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::folds::{Folds, Part, Shown};
-use super::header::matching;
-use super::{figures, head, table};
-use crate::ExperimentOutcome;
-use tolman_draw::Figure;
+use super::head;
+use crate::TourLine;
+
+/// Style of the page beside that of all pages.
+const STYLE: &str = ".film svg { max-width: 100%; max-height: 70vh; height: auto; } main thead tr::before { content: none; }
+main :is(th, td):is(:first-child, :nth-child(2)) { text-align: left; }";
 
 /// Returns a text whose parts between backticks are code.
 fn with_code(text: &str) -> Markup {
@@ -17,87 +18,59 @@ fn with_code(text: &str) -> Markup {
     }
 }
 
-/// Returns the page of a tour: tables, figures and verdicts of every experiment.
+/// Returns the page of a tour.
 ///
-/// Each links to its own report, which is in the folder `NAME` beside the page and carries the
-/// replays. `last` is the sentence at the end, which says what is missing.
+/// Each line links to the report in its folder beside the page, which carries the replays.
+/// `picture` is an SVG that shows a robot at work, and a link to the file `demo.html` beside the
+/// page. `last` are the sentences at the end, which say what is missing.
 #[must_use]
-pub fn tour_html(outcomes: &[ExperimentOutcome], last: &str) -> String {
-    let numbered = || (1_usize..).zip(outcomes);
-    let stops: Vec<Stop<'_>> = outcomes.iter().map(Stop::of).collect();
-    let parts: Vec<Part<'_>> = stops.iter().flat_map(Stop::parts).collect();
-    let shown = Folds::of_tour(outcomes.len()).of_tables(&parts);
-    let mut shown = shown.into_iter();
+pub fn tour_html(lines: &[TourLine], picture: &str, last: &str) -> String {
     let page = html! {
         (DOCTYPE)
         html lang="en" {
-            (head("A tour of all experiments", ""))
+            (head("Robots learn a map and find their way by it", STYLE))
             body {
             main {
                 header {
-                    h1 { "A tour of all experiments" }
-                    p.source { "The main tables at small counts, beside the papers'. " (with_code(last)) }
-                }
-                nav aria-label="experiments" {
-                    @for (number, outcome) in numbered() {
-                        a href={ "#experiment-" (number) } {
-                            (outcome.entry.name) (matching(&outcome.analysis.tally()))
-                        }
+                    h1 { "Robots learn a map and find their way by it" }
+                    p.abstract {
+                        "A robot explores a maze that it has never seen, is put down elsewhere, finds out where it is, and drives to \
+                         the goal. Five published systems do this here in their papers' version and in a better one. Each line of the \
+                         table was measured a minute ago on this computer, with few runs, beside the paper's value or beside a rival's \
+                         in the same worlds."
                     }
                 }
-                @for (number, stop) in (1..).zip(&stops) { (stop.section(number, &mut shown)) }
+                figure.film {
+                    a href="demo.html" { (PreEscaped(picture)) }
+                    figcaption { a href="demo.html" { "Play it" } ": what the robot senses, knows and believes, step by step." }
+                }
+                table {
+                    thead { tr {
+                        th { "system" } th { "what is measured" } th { "beside" } th { "ours" } th { "verdict" } th { "runs" }
+                    } }
+                    tbody { @for line in lines { (row(line)) } }
+                }
+                p.meta {
+                    "The verdict compares with the paper: ours " em { "matches" } ", is " em { "close" } " (it differs by less than a \
+                     stated tolerance), " em { "better" } " or " em { "differs" } ", or the runs " em { "cannot tell" } ". Beside a \
+                     rival, ours is better or worse if the test of Mann and Whitney tells the two apart (p < 0.05). " (with_code(last))
+                }
             }
-            script { (PreEscaped(include_str!("folds.js"))) }
             }
         }
     };
     tolman_draw::visible(&page.into_string()).into_owned()
 }
 
-/// One experiment on the page.
-struct Stop<'a> {
-    outcome: &'a ExperimentOutcome,
-    /// Figures of the experiment, under names that are unique on the page: several experiments may
-    /// use the same ids.
-    figures: Vec<Figure>,
-}
-
-impl<'a> Stop<'a> {
-    fn of(outcome: &'a ExperimentOutcome) -> Self {
-        let name = outcome.entry.name;
-        let figures = outcome.figures.iter().map(|figure| Figure {
-            name: format!("{name}-{}", figure.name),
-            ..figure.clone()
-        });
-        Self {
-            outcome,
-            figures: figures.collect(),
-        }
-    }
-
-    /// Returns its tables; the first comes before those of later experiments.
-    fn parts(&self) -> impl Iterator<Item = Part<'_>> {
-        let tables = self.outcome.analysis.tables.iter().enumerate();
-        tables.map(|(place, table)| Part::of(table, &self.figures, place == 0))
-    }
-
-    fn section(&self, number: usize, shown: &mut impl Iterator<Item = Shown>) -> Markup {
-        let Self { outcome, figures } = self;
-        let name = outcome.entry.name;
-        let own = format!("{name}/report.html");
-        html! {
-            section id={ "experiment-" (number) } {
-                h1 { (number) " · " (outcome.entry.title) }
-                @if !outcome.entry.source.is_empty() { p.source { (outcome.entry.source) } }
-                p.meta {
-                    @let told = outcome.analysis.tally();
-                    @if told.all() > 0 { "of the paper's values " (told) " · " }
-                    a href=(own) { "its own page, with replays" }
-                    " · make it again: " code { (outcome.command) }
-                }
-            }
-            @for (part, shown) in self.parts().zip(shown) { (table::section(None, &part, shown)) }
-            (figures::folded(&figures::of_no_table(figures), true))
+fn row(line: &TourLine) -> Markup {
+    html! {
+        tr data-place="" {
+            th scope="row" { (line.headline.system) }
+            td data-label="what is measured" { (line.headline.measures) }
+            td.none[line.beside.is_empty()] data-label="beside" { (line.beside) }
+            td data-label="ours" { b { (line.ours) } }
+            td.none[line.verdict.is_empty()] data-label="verdict" { (line.verdict) }
+            td data-label="runs" { a href={ (line.folder) "/report.html" } title=(line.command) { (line.runs) } }
         }
     }
 }

@@ -34,7 +34,8 @@ pub(super) const ENTRY: Entry = Entry {
     source: "",
     runs: 3,
     quick_runs: 1,
-    tour: None,
+    main: &[],
+    tour: &[],
     open,
 };
 

@@ -17,7 +17,7 @@ use tolman_arena::episode::{self, Episode, EpisodeError, Trial};
 use tolman_draw::Figure;
 use tolman_experiment::{
     BoxError, Correction, Entry, Experiment, Fields, Job, Metric, Options, Procedure, Record, Run,
-    Table, Tour,
+    Table,
 };
 use tolman_replay::Replay;
 
@@ -36,10 +36,8 @@ pub(super) const ENTRY: Entry = Entry {
     source: "D. Tingle, E. Ball, M. Augat: Maze Solving by Learning State Topologies, tables 2 and 3",
     runs: 25,
     quick_runs: 10,
-    tour: Some(Tour {
-        tables: &["2 (J)", "3 (Large)"],
-        runs: Some(10),
-    }),
+    main: &["2 (J)", "3 (Large)"],
+    tour: &[],
     open,
 };
 

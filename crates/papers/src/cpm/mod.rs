@@ -30,7 +30,7 @@ use tolman_arena::diktiometry::EpuckSurveyConfig;
 use tolman_arena::registry::Schooling;
 use tolman_draw::Figure;
 use tolman_experiment::{
-    BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run, Table, Tour,
+    Beside, BoxError, Entry, Experiment, Fields, Headline, Job, Options, Procedure, Run, Table,
 };
 use tolman_replay::Replay;
 use tolman_systems::baselines::q_learning::QLearningConfig;
@@ -54,10 +54,30 @@ pub(super) const ENTRY: Entry = Entry {
              Robot Path Planning, figures 9 and 11",
     runs: 10,
     quick_runs: 3,
-    tour: Some(Tour {
-        tables: &["9", "11"],
-        runs: Some(2),
-    }),
+    main: &["9", "11"],
+    tour: &[
+        Headline {
+            system: "CPM",
+            measures: "solves Maze-3, %",
+            table: "9",
+            row: "Maze-3 offline",
+            metric: "solved_percent",
+            beside: Beside::Paper,
+            runs: Some(5),
+        },
+        Headline {
+            system: "CPM Better",
+            measures: "solves look-alike mazes, %",
+            table: "aliased",
+            row: "Better",
+            metric: "solved_percent",
+            beside: Beside::Rival {
+                row: "Faithful",
+                called: "CPM",
+            },
+            runs: Some(25),
+        },
+    ],
     open,
 };
 

@@ -17,8 +17,8 @@ use crate::rows::row_of;
 use tolman_arena::diktiometry::{ErrorSummary, NEAR, PlanTrial, Survey, TAIL, WINDOW};
 use tolman_draw::Figure;
 use tolman_experiment::{
-    BoxError, Correction, Entry, Experiment, Fields, Job, Metric, Options, Procedure, Record, Row,
-    Run, Settling, Table, Tour, record,
+    Beside, BoxError, Correction, Entry, Experiment, Fields, Headline, Job, Metric, Options,
+    Procedure, Record, Row, Run, Settling, Table, record,
 };
 use tolman_replay::Replay;
 use tolman_systems::stream;
@@ -36,10 +36,30 @@ pub(super) const ENTRY: Entry = Entry {
     source: "S. Engelson, D. McDermott: Maps Considered as Adaptive Planning Resources, figures 3 and 4",
     runs: 10,
     quick_runs: 2,
-    tour: Some(Tour {
-        tables: &["3b"],
-        runs: Some(1),
-    }),
+    main: &["3b"],
+    tour: &[
+        Headline {
+            system: "Diktiometry",
+            measures: "maps of offices right, %",
+            table: "fresh worlds",
+            row: "5x5 with scripts",
+            metric: "right_percent",
+            beside: Beside::Rival {
+                row: "5x5 with scripts (paper's rule)",
+                called: "paper's rule",
+            },
+            runs: Some(5),
+        },
+        Headline {
+            system: "Odometry off",
+            measures: "maps of offices exact, %",
+            table: "odometry off",
+            row: "office",
+            metric: "exact_percent",
+            beside: Beside::Nothing,
+            runs: Some(20),
+        },
+    ],
     open,
 };
 

@@ -22,8 +22,8 @@ use crate::tolerances::MAP_SCORE;
 use serde::Serialize;
 use tolman_draw::Figure;
 use tolman_experiment::{
-    BoxError, Correction, Entry, Experiment, Fields, Job, Metric, Options, Pairwise, Procedure,
-    Record, Row, Run, Table, Tour, record,
+    Beside, BoxError, Correction, Entry, Experiment, Fields, Headline, Job, Metric, Options,
+    Pairwise, Procedure, Record, Row, Run, Table, record,
 };
 
 use search_space::TABLE_3_1;
@@ -44,10 +44,30 @@ pub(super) const ENTRY: Entry = Entry {
              Growing Neural Gas, 2006",
     runs: 500,
     quick_runs: 40,
-    tour: Some(Tour {
-        tables: &["4.1"],
-        runs: Some(10),
-    }),
+    main: &["4.1"],
+    tour: &[
+        Headline {
+            system: "GNG-SLAM",
+            measures: "score of the map",
+            table: "4.1",
+            row: "40x30 hsv+odometry",
+            metric: "score",
+            beside: Beside::Paper,
+            runs: Some(20),
+        },
+        Headline {
+            system: "GNG-SLAM Better",
+            measures: "error of the pose at last, m",
+            table: "online",
+            row: "corrected",
+            metric: "position_error_m",
+            beside: Beside::Rival {
+                row: "raw odometry",
+                called: "wheels alone",
+            },
+            runs: Some(4),
+        },
+    ],
     open,
 };
 

@@ -25,8 +25,8 @@ use crate::tolerances::{MOUSE_SCORE, MOVES};
 use tolman_arena::micromouse::{Judgement, MAX_STEPS, floor, try_on};
 use tolman_draw::Figure;
 use tolman_experiment::{
-    BoxError, Entry, Experiment, Fields, Job, Metric, Options, Procedure, Record, Row, Run, Table,
-    Tour, record, require,
+    Beside, BoxError, Entry, Experiment, Fields, Headline, Job, Metric, Options, Procedure, Record,
+    Row, Run, Table, record, require,
 };
 use tolman_systems::baselines::q_learning::QLearningConfig;
 use tolman_systems::micromouse::Searcher;
@@ -44,10 +44,27 @@ pub(super) const ENTRY: Entry = Entry {
     source: "X. Wang: Plot and Navigate a Virtual Maze, tables 1 to 4",
     runs: 5,
     quick_runs: 5,
-    tour: Some(Tour {
-        tables: &["1", "competition"],
-        runs: None,
-    }),
+    main: &["1", "competition"],
+    tour: &[
+        Headline {
+            system: "Micromouse",
+            measures: "score in Maze 1, less is good",
+            table: "1",
+            row: "certifying search",
+            metric: "average_score",
+            beside: Beside::Paper,
+            runs: None,
+        },
+        Headline {
+            system: "Micromouse",
+            measures: "proves its best run, %",
+            table: "competition",
+            row: "braided 16",
+            metric: "certified_percent",
+            beside: Beside::Nothing,
+            runs: None,
+        },
+    ],
     open,
 };
 

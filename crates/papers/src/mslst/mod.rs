@@ -20,7 +20,8 @@ mod states;
 use crate::venue::{self, Venue};
 use tolman_draw::Figure;
 use tolman_experiment::{
-    BoxError, Entry, Experiment, Fields, Job, Options, P_TABLE, Procedure, Run, Table, Tour,
+    Beside, BoxError, Entry, Experiment, Fields, Headline, Job, Options, P_TABLE, Procedure, Run,
+    Table,
 };
 use tolman_replay::Replay;
 
@@ -39,10 +40,39 @@ pub(super) const ENTRY: Entry = Entry {
     source: "D. Tingle, E. Ball, M. Augat: Maze Solving by Learning State Topologies, tables 1 to 3",
     runs: 25,
     quick_runs: 10,
-    tour: Some(Tour {
-        tables: &["2 (J)"],
-        runs: Some(3),
-    }),
+    main: &["2 (J)"],
+    tour: &[
+        Headline {
+            system: "MSLST",
+            measures: "arrives in the J maze, %",
+            table: "2 (J)",
+            row: "MSLST 100",
+            metric: "success_percent",
+            beside: Beside::Paper,
+            runs: Some(10),
+        },
+        Headline {
+            system: "MSLST",
+            measures: "arrives in the Large maze, %",
+            table: "3 (Large)",
+            row: "MSLST 50",
+            metric: "success_percent",
+            beside: Beside::Paper,
+            runs: Some(10),
+        },
+        Headline {
+            system: "MSLST Better",
+            measures: "arrives in random mazes, %",
+            table: "random mazes",
+            row: "Better",
+            metric: "success_percent",
+            beside: Beside::Rival {
+                row: "MSLST 50",
+                called: "MSLST",
+            },
+            runs: Some(20),
+        },
+    ],
     open,
 };
 

@@ -18,7 +18,8 @@ pub(super) const ENTRY: Entry = Entry {
     source: "D. Tingle, E. Ball, M. Augat: Maze Solving by Learning State Topologies, tables 2 and 3",
     runs: 378,
     quick_runs: 2,
-    tour: None,
+    main: &[],
+    tour: &[],
     open,
 };
 

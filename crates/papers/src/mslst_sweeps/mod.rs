@@ -35,7 +35,8 @@ pub(super) const ENTRY: Entry = Entry {
     source: "D. Tingle, E. Ball, M. Augat: Maze Solving by Learning State Topologies, future work",
     runs: 10,
     quick_runs: 2,
-    tour: None,
+    main: &[],
+    tour: &[],
     open,
 };
 

@@ -19,7 +19,7 @@ use tolman_sim::robots::LaserPioneerConfig;
 use crate::data;
 use tolman_arena::pioneer;
 use tolman_draw::Figure;
-use tolman_experiment::{BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run, Tour};
+use tolman_experiment::{BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run};
 
 use sonar::Log;
 use states::Mazes;
@@ -32,10 +32,8 @@ pub(super) const ENTRY: Entry = Entry {
              incremental network for on-line unsupervised classification and topology learning, 2006",
     runs: 20,
     quick_runs: 10,
-    tour: Some(Tour {
-        tables: &["1"],
-        runs: None,
-    }),
+    main: &["1"],
+    tour: &[],
     open,
 };
 

@@ -21,7 +21,7 @@ mod wean;
 
 use serde::Serialize;
 use tolman_draw::Figure;
-use tolman_experiment::{BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run, Tour};
+use tolman_experiment::{BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run};
 use tolman_maps::audit::AuditConfig;
 use tolman_maps::scan_matching::ScanMatchingConfig;
 use tolman_systems::places::PlacesConfig;
@@ -42,10 +42,8 @@ pub(super) const ENTRY: Entry = Entry {
              SLAM Algorithms, 2009, for the relations",
     runs: 5,
     quick_runs: 1,
-    tour: Some(Tour {
-        tables: &["small log"],
-        runs: None,
-    }),
+    main: &["small log"],
+    tour: &[],
     open,
 };
 

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, anyhow};
 use tolman_arena::contest::{Condition, Contest, LocateOutcome, Moment, ShowRecord};
-use tolman_arena::registry::{DemoWorld, DrivesBy, Schooling};
+use tolman_arena::registry::{DemoWorld, DrivesBy, Schooling, SystemEntry};
 use tolman_film::Film;
 use tolman_maze::{Maze, MazeFile};
 use tolman_replay::{Chapter, Mark, Marks, Replay, moving_picture};
@@ -42,7 +42,7 @@ Examples:
 )]
 pub(super) struct Arguments {
     /// System that drives
-    #[arg(long, value_name = "NAME", default_value = "mslst-better")]
+    #[arg(long, value_name = "NAME", default_value = USUAL)]
     system: String,
     #[command(flatten)]
     maze: MazePath,
@@ -63,10 +63,24 @@ pub(super) struct Arguments {
     live: bool,
 }
 
+/// System of the demo.
+const USUAL: &str = "mslst-better";
 /// Maze of the demo. It is part of the program, so that the demo runs in any folder.
 pub(super) const MAZE: &str = include_str!("../../mazes/demo.maze");
 /// Maze for systems that map a large maze slowly or do not localize in it.
 const SMALL: &str = include_str!("../../mazes/star.maze");
+
+/// Plays the usual demo, writes its replay to `demo.html` in a folder, and returns its moving
+/// picture.
+pub(super) fn in_folder(app: &App, folder: &Path, out: &mut dyn Write) -> Result<String> {
+    let path = folder.join("demo.html");
+    replay_file::check(&path, Overwrite::Replays)?;
+    let contestant = app.system(USUAL, |system| system.learns())?;
+    let (name, maze) = named(tolman_maze::read(MAZE).context("the maze of this program")?);
+    let contest = contest(contestant, &maze, &name, None);
+    let (_, picture) = play(&contest, false, &path, Overwrite::Replays, out)?;
+    Ok(picture)
+}
 
 pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -> Result {
     let overwrite = Overwrite::if_forced(arguments.force);
@@ -76,8 +90,7 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     };
     replay_file::check(&path, overwrite)?;
     let contestant = app.system(&arguments.system, |system| system.learns())?;
-    let (usual, seed) = contestant.facts().demo;
-    let usual = match usual {
+    let usual = match contestant.facts().demo.0 {
         DemoWorld::Small => SMALL,
         DemoWorld::Large => MAZE,
     };
@@ -88,27 +101,50 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
         }
         None => named(tolman_maze::read(usual).context("the maze of this program")?),
     };
-    let contest = Contest {
-        contestant,
-        robot: None,
-        maze: &maze,
-        name: &name,
-        condition: Condition::AsMade,
-        starts: 1,
-        seed: arguments.seed.unwrap_or(seed),
-        stopwatch: None,
-    };
-    let (record, replay) = shown(&contest, arguments.live)?;
+    let contest = contest(contestant, &maze, &name, arguments.seed);
+    let (record, picture) = play(&contest, arguments.live, &path, overwrite, out)?;
     if let Some(path) = &arguments.svg {
-        file::write(path, moving_picture(&replay))?;
+        file::write(path, picture)?;
     }
-    replay_file::write(&path, replay.thinned(replay_file::MOST_STEPS), overwrite)?;
-    tell(&contest, &record, out)?;
-    replay_file::tell(&path, out)?;
     match failure(&record).filter(|_| can_drive(&contest)) {
         None => Ok(()),
         Some(why) => Err(Failure::Failed(anyhow!(why))),
     }
+}
+
+/// Returns the demo's contest, with the seed that shows the system well if none is given.
+fn contest<'a>(
+    contestant: &'static dyn SystemEntry,
+    maze: &'a Maze,
+    name: &'a str,
+    seed: Option<u64>,
+) -> Contest<'a> {
+    Contest {
+        contestant,
+        robot: None,
+        maze,
+        name,
+        condition: Condition::AsMade,
+        starts: 1,
+        seed: seed.unwrap_or(contestant.facts().demo.1),
+        stopwatch: None,
+    }
+}
+
+/// Plays the demo, writes its replay, and returns its record and its moving picture.
+fn play(
+    contest: &Contest<'_>,
+    is_live: bool,
+    path: &Path,
+    overwrite: Overwrite,
+    out: &mut dyn Write,
+) -> Result<(ShowRecord, String)> {
+    let (record, replay) = shown(contest, is_live)?;
+    let picture = moving_picture(&replay);
+    replay_file::write(path, replay.thinned(replay_file::MOST_STEPS), overwrite)?;
+    tell(contest, &record, out)?;
+    replay_file::tell(path, out)?;
+    Ok((record, picture))
 }
 
 /// Returns the chapters of the replay, in order.

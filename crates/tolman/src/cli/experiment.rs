@@ -137,7 +137,7 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     for (number, (name, options)) in (1..).zip(chosen) {
         let experiment = app.experiment(name, &options)?;
         if arguments.all && !arguments.json {
-            let head = heading(number, all, experiment.entry.title);
+            let head = format!("{number} of {all} · {}", experiment.entry.title);
             writeln!(out, "{head}\n")?;
         }
         let progress = Terminal::new(Arc::clone(&stop));
@@ -232,11 +232,6 @@ fn refuse_other_files(mazes: &[PathBuf]) -> Result {
         }
     }
     Ok(())
-}
-
-/// Returns the line above an experiment that is one of several.
-fn heading(number: usize, all: usize, title: &str) -> String {
-    format!("{number} of {all} · {title}")
 }
 
 impl Arguments {

@@ -1,111 +1,108 @@
-//! `tolman experiment` without a name: the main tables of all experiments, in about a minute.
+//! `tolman experiment` without a name: a demo to look at, and one table with a line for each system,
+//! in about a minute.
 
 use alloc::sync::Arc;
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use core::time::Duration;
+use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
 use std::time::Instant;
 
+use anyhow::Context;
 use indicatif::ProgressBar;
 use tolman_experiment::{
-    Entry, Options, Progress, ProgressEvent, Tour, execute, tables_as_text, tour_html, wrapped,
+    Entry, Headline, Options, Progress, ProgressEvent, TourLine, execute, tour_html, wrapped,
 };
 
-use super::{classify, heading};
-use crate::cli::stdout::write_coloured;
-use crate::cli::{App, Result, bar, file, ink, interrupt};
+use super::classify;
+use crate::cli::{App, Result, bar, demo, file, interrupt};
 
 /// Maximum width of the tour's lines, columns.
 const WIDTH: usize = 80;
 
-/// Number of steps that the bar has for each experiment.
+/// Number of steps that the bar has for each line.
 const STEPS: u32 = 1000;
 
 pub(super) fn carry_out(app: &App, options: &Options, out: &mut dyn Write) -> Result {
     let stop = interrupt::flag()?;
-    let entries = &app.catalogue.experiments;
-    let stops: Vec<(&Entry, Tour)> = entries
-        .iter()
-        .filter_map(|entry| Some((entry, entry.tour?)))
+    let entries = app.catalogue.experiments.iter();
+    let lines: Vec<(&Entry, &Headline)> = entries
+        .flat_map(|entry| entry.tour.iter().map(move |line| (entry, line)))
         .collect();
+    let started = Instant::now();
     let folder = options.out.clone();
     let folder = folder.unwrap_or_else(|| PathBuf::from("results").join("tour"));
-    let shown = Shown::new(stop, stops.len());
-    let mut outcomes = Vec::new();
-    let (started, mut whole) = (Instant::now(), Duration::ZERO);
-    for (number, (entry, tour)) in (1..).zip(&stops) {
-        let options = options.on_tour(tour, &folder.join(entry.name));
+    fs::create_dir_all(&folder).with_context(|| folder.display().to_string())?;
+    let picture = demo::in_folder(app, &folder, out)?;
+    writeln!(out, "\n{}", Told::HEADING)?;
+    let shown = Shown::new(stop, lines.len());
+    let mut measured = Vec::new();
+    let mut left_out = Vec::new();
+    for (place, (entry, line)) in lines.iter().enumerate() {
+        shown.begin(place, line.system);
+        let options = options.on_tour(line, &folder.join(TourLine::folder_of(entry.name, line)));
         let experiment = app.experiment(entry.name, &options)?;
-        shown.begin(number - 1, entry.name);
-        let began = Instant::now();
         let outcome = execute(&experiment, &options, &app.build, &shown).map_err(classify)?;
-        let head = heading(number, stops.len(), entry.title);
-        let tables = tables_as_text(&outcome.analysis, ink());
-        shown.bar.suspend(|| -> Result {
-            for line in wrapped(&head, WIDTH) {
-                writeln!(out, "{line}")?;
+        match TourLine::of(**line, &outcome) {
+            Ok(line) => {
+                shown.bar.suspend(|| writeln!(out, "{}", Told(&line)))?;
+                out.flush()?;
+                measured.push(line);
             }
-            writeln!(out)?;
-            write_coloured(&format!("{tables}\n"), out)?;
-            Ok(out.flush()?)
-        })?;
-        whole += whole_of(entry, app, outcome.runs.len(), began.elapsed())?;
-        outcomes.push(outcome);
+            Err(why) => left_out.push(format!("{}, {}: {why}. ", line.system, line.measures)),
+        }
     }
     shown.bar.finish_and_clear();
-    let left_out = entries.iter().filter(|entry| entry.tour.is_none());
-    let left_out: Vec<&str> = left_out.map(|entry| entry.name).collect();
     let program = options.program.command();
-    let mut last = String::new();
-    if !left_out.is_empty() {
-        last = format!(
-            "Left out, since they take longer: {}; `{program} experiment NAME` plays one. ",
-            left_out.join(", ")
-        );
+    let mut last = left_out.concat();
+    if !last.is_empty() {
+        last = format!("Left out: {last}");
     }
     last += &format!(
-        "`{program} experiment --all` plays every table with the papers' own counts, in about {} \
-         or more.",
-        rounded(whole)
+        "`{program} experiment NAME` plays one of the papers' experiments, and `{program} \
+         experiment --all` every table with the papers' own numbers of runs, which takes much longer."
     );
     let report = folder.join("report.html");
-    file::write(&report, tour_html(&outcomes, &last))?;
+    file::write(&report, tour_html(&measured, &picture, &last))?;
     let took = started.elapsed().as_secs_f64();
-    writeln!(out, "The report, {took:.0} s: {}", report.display())?;
+    writeln!(out, "\nThe report, {took:.0} s: {}", report.display())?;
     for line in wrapped(&last, WIDTH) {
         writeln!(out, "{line}")?;
     }
     Ok(())
 }
 
-/// Returns an estimate of how long all tables of an experiment take, from the time that the shown
-/// runs took.
-///
-/// # Errors
-/// If the experiment cannot be prepared.
-fn whole_of(entry: &Entry, app: &App, runs: usize, took: Duration) -> Result<Duration> {
-    let options = Options::default();
-    let whole = app.experiment(entry.name, &options)?;
-    let rows = whole.tables.iter().flat_map(|table| &table.rows);
-    let all: u64 = rows.map(|row| u64::from(row.runs_of(entry.runs))).sum();
-    Ok(took.mul_f64(all as f64 / runs.max(1) as f64))
+/// A line of the tour as text of at most 80 columns.
+struct Told<'a>(&'a TourLine);
+
+impl Told<'_> {
+    const HEADING: &'static str =
+        "system          what is measured              beside               ours  verdict";
 }
 
-/// Returns a rough duration in words, in whole minutes.
-fn rounded(duration: Duration) -> String {
-    match duration.as_secs().div_ceil(60) {
-        0 | 1 => "a minute".to_owned(),
-        minutes => format!("{minutes} minutes"),
+impl core::fmt::Display for Told<'_> {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        let TourLine {
+            headline,
+            beside,
+            ours,
+            verdict,
+            ..
+        } = self.0;
+        let line = format!(
+            "{:<15} {:<29} {beside:<18} {ours:>6}  {verdict}",
+            headline.system, headline.measures
+        );
+        f.write_str(line.trim_end())
     }
 }
 
-/// Progress bar of the whole tour, with equal parts for its experiments.
+/// Progress bar of the whole tour, with equal parts for its lines.
 struct Shown {
     stop: Arc<AtomicBool>,
     bar: ProgressBar,
     stops: usize,
-    /// Step of the bar at which the current experiment's part begins.
+    /// Step of the bar at which the current line's part begins.
     begin: AtomicU64,
     total: AtomicU64,
     done: AtomicU64,
@@ -124,7 +121,7 @@ impl Shown {
         }
     }
 
-    /// Moves the bar to the beginning of the experiment number `place`, counted from 0.
+    /// Moves the bar to the beginning of the line number `place`, counted from 0.
     fn begin(&self, place: usize, name: &str) {
         let begin = place as u64 * u64::from(STEPS);
         self.begin.store(begin, Ordering::Relaxed);
