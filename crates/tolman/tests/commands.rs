@@ -139,14 +139,23 @@ fn run(ran: &Ran, page: &str, lines: &[String]) -> Vec<String> {
     wrong
 }
 
-/// Returns the lines of the fenced blocks of a page that call `tolman`.
+/// Returns the lines of a page that call `tolman`: those of its fenced blocks, and what its tables
+/// say under *you type*.
 fn commands_of_page(text: &str) -> Vec<String> {
+    let tables = text
+        .split("\n\n")
+        .filter(|part| part.contains("| you type |"));
+    let typed = tables.flat_map(|table| table.split('`').skip(1).step_by(2));
     let blocks = text.split("\n```").skip(1).step_by(2);
     let lines = blocks.flat_map(str::lines).map(|line| {
         let line = line.strip_prefix("$ ").unwrap_or(line);
         line.replace("cargo run --release -p tolman --", "tolman")
     });
-    lines.filter(|line| line.starts_with("tolman ")).collect()
+    let typed = typed.map(str::to_owned);
+    lines
+        .chain(typed)
+        .filter(|line| line.starts_with("tolman "))
+        .collect()
 }
 
 /// Returns the examples of a verb's help.

@@ -1,5 +1,5 @@
-//! `tolman experiment` without a name: a demo to look at, and one table with a line for each system,
-//! in about a minute.
+//! `tolman experiment` without a name: a demo to look at, and one table with a line for each
+//! system, in about a minute.
 
 use alloc::sync::Arc;
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -60,7 +60,7 @@ pub(super) fn carry_out(app: &App, options: &Options, out: &mut dyn Write) -> Re
     }
     last += &format!(
         "`{program} experiment NAME` plays one of the papers' experiments, and `{program} \
-         experiment --all` every table with the papers' own numbers of runs, which takes much longer."
+         experiment --all` every table with the papers' own numbers of runs, in much more time."
     );
     let report = folder.join("report.html");
     file::write(&report, tour_html(&measured, &picture, &last))?;
