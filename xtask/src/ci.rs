@@ -6,7 +6,6 @@ mod firmware;
 mod licences;
 mod oldest;
 mod outside;
-mod packages;
 
 use core::time::Duration;
 use std::env;
@@ -22,7 +21,8 @@ use Job::{Golden, Static, Tests, Thorough};
 
 use crate::workspace::{self, built, cargo, installed, succeed};
 use crate::{
-    board, docs, fuzz, golden, layers, mazes, mutants, playground, prose, python, rerun, site,
+    board, docs, fuzz, golden, layers, mazes, mutants, packages, playground, prose, python, rerun,
+    site,
 };
 
 /// Outcome of a step that did not fail.

@@ -1,5 +1,6 @@
 //! `cargo xtask dist`: builds one file that runs on every Linux of this processor.
 
+use std::path::PathBuf;
 use std::process::Command;
 use std::time::Instant;
 use std::{env, fs};
@@ -11,12 +12,12 @@ use crate::workspace::{cargo, output, succeed, target_folder};
 /// Number of times that the start is measured; the fastest counts.
 const STARTS: u32 = 20;
 
-/// Builds the command with all its Rust features, linked statically, and prints its size and how
-/// long it takes to start.
+/// Builds the command with all its Rust features, linked statically, prints its size and how long
+/// it takes to start, and returns its path.
 ///
 /// # Errors
 /// If the target for static linking is not installed, or the command does not build or run.
-pub(crate) fn run() -> Result<()> {
+pub(crate) fn run() -> Result<PathBuf> {
     let target = format!("{}-unknown-linux-musl", env::consts::ARCH);
     let installed =
         output(Command::new("rustc").args(["--print", "target-libdir", "--target", &target]))?;
@@ -43,5 +44,5 @@ pub(crate) fn run() -> Result<()> {
         file.display(),
         1e3 * fastest
     );
-    Ok(())
+    Ok(file)
 }

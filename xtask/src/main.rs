@@ -17,9 +17,11 @@ mod golden;
 mod layers;
 mod mazes;
 mod mutants;
+mod packages;
 mod playground;
 mod prose;
 mod python;
+mod release;
 mod rerun;
 mod site;
 mod workspace;
@@ -78,6 +80,13 @@ enum Verb {
     Prose,
     /// Builds the command as one file that runs on every Linux of this processor: target/dist
     Dist,
+    /// Makes everything of a release but the uploads: packages in order, each built and tested by
+    /// itself, the command as one file, the site, the notes and the tag's message
+    Release {
+        /// Uploads nothing. There is no other way yet: the last lines name what is left to type
+        #[arg(long, required = true)]
+        dry_run: bool,
+    },
     /// Gives mutated files to every reader, or to those named. Exits with 1 if one panics, takes
     /// longer than 2 s or uses more than 1 GiB
     Fuzz {
@@ -133,7 +142,8 @@ fn main() -> ExitCode {
         Verb::Bench { name } => bench::run(name.as_deref()),
         Verb::Board => alone(board::check()),
         Verb::Prose => prose::run(),
-        Verb::Dist => dist::run(),
+        Verb::Dist => dist::run().map(drop),
+        Verb::Release { dry_run: _ } => release::run(),
         Verb::Fuzz {
             seconds,
             seed,

@@ -15,23 +15,28 @@ use crate::workspace::{cargo, metadata, read, root, succeed, target_folder};
 const ONE: &str = "tolman-stats";
 
 /// A published member of the workspace.
-struct Package {
-    name: String,
-    version: String,
+pub(crate) struct Package {
+    pub(crate) name: String,
+    pub(crate) version: String,
+    /// Names of the packages that it needs, to be built or to be tested.
+    needs: Vec<String>,
 }
 
 impl Package {
     /// Reads cargo's metadata of a member; `None` if it is not published.
     fn of(member: &Value) -> Option<Self> {
         member["publish"].is_null().then_some(())?;
+        let needs = member["dependencies"].as_array()?.iter();
+        let needs = needs.filter_map(|need| need["name"].as_str());
         Some(Self {
             name: member["name"].as_str()?.to_owned(),
             version: member["version"].as_str()?.to_owned(),
+            needs: needs.map(str::to_owned).collect(),
         })
     }
 
     /// Returns the package's name in files.
-    fn stem(&self) -> String {
+    pub(crate) fn stem(&self) -> String {
         format!("{}-{}", self.name, self.version)
     }
 }
@@ -40,7 +45,7 @@ impl Package {
 ///
 /// # Errors
 /// As [`all`].
-pub(super) fn one() -> Result<()> {
+pub(crate) fn one() -> Result<()> {
     let mut packages = published()?;
     packages.retain(|package| package.name == ONE);
     let folder = unpacked("package", &packages)?;
@@ -51,7 +56,7 @@ pub(super) fn one() -> Result<()> {
 ///
 /// # Errors
 /// If one cannot be packed, lacks a file or a feature, or fails its tests.
-pub(super) fn all() -> Result<()> {
+pub(crate) fn all() -> Result<()> {
     let packages = published()?;
     let folder = unpacked("packages", &packages)?;
     for Package { name, .. } in &packages {
@@ -67,6 +72,28 @@ pub(super) fn all() -> Result<()> {
     )?)?;
     eprintln!("{} packages build and pass their tests", packages.len());
     Ok(())
+}
+
+/// Returns the published packages, each after those that it needs.
+///
+/// # Errors
+/// If cargo cannot read a manifest, or packages need each other in a circle.
+pub(crate) fn in_order() -> Result<Vec<Package>> {
+    let mut left = published()?;
+    let mut ordered: Vec<Package> = Vec::new();
+    while !left.is_empty() {
+        let waits = |package: &Package| {
+            let mut others = left.iter().filter(|other| other.name != package.name);
+            others.any(|other| package.needs.contains(&other.name))
+        };
+        let next = left.iter().position(|package| !waits(package));
+        let next = next.with_context(|| {
+            let names: Vec<&str> = left.iter().map(|package| &*package.name).collect();
+            format!("these need each other in a circle: {}", names.join(", "))
+        })?;
+        ordered.push(left.remove(next));
+    }
+    Ok(ordered)
 }
 
 fn published() -> Result<Vec<Package>> {
