@@ -136,6 +136,10 @@ struct FreeFloor {
     text: Arc<str>,
 }
 
+/// Side of the cells in which ways of a robot are searched, in radii of its body. This much is left
+/// to the grid.
+const GRID: f64 = 0.25;
+
 /// MSLST gives a robot 500 time steps in its Large maze; the first one drawn here has 63 cells to
 /// start from, each [`CORRIDOR_WIDTH`] wide.
 const STEPS_PER_METRE: f64 = 500.0 / (63.0 * CORRIDOR_WIDTH);
@@ -344,18 +348,31 @@ impl Course {
     /// `radius`, m, which touches no wall.
     #[must_use]
     pub fn shortest_drive(&self, from: Point, radius: f64) -> Option<f64> {
-        // A quarter of the disc is left to the grid.
-        let pitch = 0.25 * radius;
+        let step = GRID * radius;
+        let left = |at: Point| if self.is_destination(at) { 0.0 } else { step };
+        let way = self.drive(from, radius, left)?;
+        let lengths = way.windows(2).map(|piece| (piece[1] - piece[0]).norm());
+        Some(lengths.sum())
+    }
+
+    /// Returns the corners of a shortest way of such a robot from one position to another, with its
+    /// ends; `None` if there is none.
+    #[must_use]
+    pub fn way_between(&self, from: Point, to: Point, radius: f64) -> Option<Vec<Point>> {
+        let step = GRID * radius;
+        let left = |at: Point| match (at - to).norm() {
+            far if far <= step => 0.0,
+            far => far,
+        };
+        self.drive(from, radius, left)
+    }
+
+    fn drive(&self, from: Point, radius: f64, left: impl Fn(Point) -> f64) -> Option<Vec<Point>> {
+        let pitch = GRID * radius;
         let radius = radius - pitch;
         let body = Body::Circle { radius };
         let is_floor = |at: Point| self.world.clear_for(&body, Pose::new(at, Heading::EAST));
-        let left = |at: Point| if self.is_destination(at) { 0.0 } else { pitch };
-        let way = taut_way(from, pitch, is_floor, left)?;
-        Some(
-            way.windows(2)
-                .map(|piece| (piece[1] - piece[0]).norm())
-                .sum(),
-        )
+        taut_way(from, pitch, is_floor, left)
     }
 
     /// Returns the first of four cells without a wall between them; `None` if there are none, and

@@ -152,8 +152,8 @@ impl Growth {
         }
     }
 
-    /// Shows these edges along the ways that were driven. `moved` has the nodes that are new or
-    /// have moved.
+    /// Shows these edges along the ways that were driven, or else along the shortest ones. `moved`
+    /// has the nodes that are new or have moved.
     fn link(&mut self, step: u32, wanted: &BTreeSet<(usize, usize)>, moved: &BTreeSet<usize>) {
         for (ends, edge) in &mut self.edges {
             if edge.died.is_none() && !wanted.contains(ends) {
@@ -174,7 +174,21 @@ impl Growth {
             let mut edge = MapEdge::new(*a as u32, *b as u32, step);
             match self.way(*a, *b) {
                 Some(way) => edge.way = way,
-                None => edge.kind = EdgeKind::Supposed,
+                None => {
+                    edge.kind = EdgeKind::Supposed;
+                    let stays = before.filter(|before| {
+                        before.kind == EdgeKind::Supposed
+                            && !moved.contains(a)
+                            && !moved.contains(b)
+                    });
+                    edge.way = match stays {
+                        Some(before) => before.way.clone(),
+                        None => {
+                            let [a, b] = [a, b].map(|end| self.nodes[*end].latest());
+                            self.floor.shortest(a, b)
+                        }
+                    };
+                }
             }
             let is_new = before.is_none_or(|before| {
                 before.died.is_some() || (before.kind, &before.way) != (edge.kind, &edge.way)

@@ -2,6 +2,7 @@
 
 use alloc::collections::BTreeSet;
 
+use tolman_arena::course::Course;
 use tolman_arena::{Outing, is_clear, taut_way};
 use tolman_geom::Point;
 
@@ -20,8 +21,10 @@ pub(crate) struct SweptFloor {
     pitch: f64,
     /// Distance from swept floor within which a position belongs to it, m.
     near: f64,
-    /// Ends of each wall, m.
-    walls: Vec<[Point; 2]>,
+    /// World in which the robot is.
+    course: Course,
+    /// Radius of the largest disc that the robot's body holds, m.
+    radius: f64,
     cells: BTreeSet<Cell>,
     /// Where the robot is, m; `None` if it was lifted.
     last: Option<Point>,
@@ -31,11 +34,12 @@ impl SweptFloor {
     /// Returns a floor that no robot has been on. A position belongs to swept floor nearer than
     /// `near`, m.
     pub(crate) fn new(outing: &dyn Outing, near: f64) -> Self {
-        let walls = outing.course().world.walls().iter();
+        let radius = outing.robot().inner_radius();
         Self {
-            pitch: outing.robot().inner_radius() / SPANNED,
+            pitch: radius / SPANNED,
             near,
-            walls: walls.map(|wall| [wall.start, wall.end]).collect(),
+            course: outing.course().clone(),
+            radius,
             cells: BTreeSet::new(),
             last: None,
         }
@@ -86,6 +90,16 @@ impl SweptFloor {
         taut_way(from, self.pitch, is_swept, left)
     }
 
+    /// Returns the corners of the shortest way from `a` to `b` on which the robot has room, without
+    /// its ends; empty if it goes straight, or there is none.
+    pub(crate) fn shortest(&self, a: Point, b: Point) -> Vec<Point> {
+        let way = self.course.way_between(a, b, self.radius);
+        let mut way = way.unwrap_or_default();
+        way.pop();
+        way.drain(..1.min(way.len()));
+        way
+    }
+
     /// Returns the middle of the swept cell nearest to a position, if it is near enough. No wall
     /// is between them.
     fn nearest(&self, position: Point) -> Option<Point> {
@@ -103,7 +117,8 @@ impl SweptFloor {
 
     /// Returns whether no wall is between two positions.
     fn is_open(&self, a: Point, b: Point) -> bool {
-        !self.walls.iter().any(|wall| crosses([a, b], *wall))
+        let mut walls = self.course.world.walls().iter();
+        !walls.any(|wall| crosses([a, b], [wall.start, wall.end]))
     }
 
     fn cell(&self, position: Point) -> Cell {

@@ -4,7 +4,7 @@ use maud::{Markup, html};
 use tolman_draw::{Figure, FloorPlan, KeyMark, Series, ZoneStyle};
 use tolman_geom::Point;
 
-use super::{Chapter, EdgeKind, MapEdge, MapNode, Replay, RobotTrack, Shape, ZoneKind};
+use super::{Chapter, MapNode, Replay, RobotTrack, Shape, ZoneKind};
 
 /// Number of frames per second.
 const RATE: f64 = 25.0;
@@ -208,9 +208,7 @@ fn map(plan: &FloorPlan, track: &RobotTrack, clock: &Clock) -> Markup {
             let dot = format!("M{}h0", place(plan, node.latest()));
             nodes.add(clock, node.born, node.died, &dot);
         }
-        // A link that was not driven yet would cross walls.
-        let is_driven = |edge: &&MapEdge| edge.kind != EdgeKind::Supposed;
-        for edge in map.edges.iter().filter(is_driven) {
+        for edge in &map.edges {
             if let (Some(a), Some(b)) = (at(edge.a), at(edge.b)) {
                 let corners = edge.way.iter().map(|corner| place(plan, *corner));
                 let corners: Vec<String> = corners.chain([b]).collect();

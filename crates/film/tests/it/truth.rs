@@ -5,7 +5,7 @@ use tolman_arena::course::Course;
 use tolman_arena::registry::{Registry, Schooling, SystemEntry};
 use tolman_film::Film;
 use tolman_geom::Point;
-use tolman_replay::{EdgeKind, MapEdge, MapGrowth, MapNode, Replay, json};
+use tolman_replay::{MapEdge, MapGrowth, MapNode, Replay, json};
 
 const FORK: &str = "\
 name = Fork
@@ -123,11 +123,7 @@ fn what_is_shown_of_a_map_is_where_the_robot_was() {
             births.iter().any(|born| *born != births[0]),
             "{told}: {births:?}"
         );
-        for edge in map
-            .edges
-            .iter()
-            .filter(|edge| edge.kind == EdgeKind::Passage)
-        {
+        for edge in &map.edges {
             for piece in line(map, edge).windows(2) {
                 let piece = [piece[0], piece[1]];
                 let mut walls = replay.scenery.walls.iter();
