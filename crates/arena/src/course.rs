@@ -228,6 +228,12 @@ impl Course {
         }
     }
 
+    /// Returns how far the middle of a robot stays from the walls of a free world, m; `None` in a
+    /// maze.
+    pub(crate) fn free_radius(&self) -> Option<f64> {
+        Some(self.free.as_ref()?.paving.radius)
+    }
+
     /// Returns the distance between the middles of two neighbouring cells, m.
     #[must_use]
     pub fn pitch(&self) -> f64 {

@@ -3,12 +3,12 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
-use thiserror::Error;
 use tolman_geom::Point;
 use tolman_maze::Cell;
 use tolman_robot::{MapPlace, MapView, VisitNaming};
 
 use super::judgement::{MapJudgement, judge, stands_for};
+use super::spots::Spots;
 use super::true_graph::{PlaceRule, TrueGraph};
 use super::whereabouts::{PlaceVisit, Squares, believed};
 use crate::Outing;
@@ -82,7 +82,8 @@ impl TrueVisits {
                 cell: squares.cell_at(*at),
             })
             .collect();
-        let (stands_for, purity) = stands_for(&map, &cells, squares);
+        let spots = Spots::of(outing.course());
+        let (stands_for, purity) = stands_for(&map, &cells, squares, &spots);
         let mut way: Vec<Cell> = path.skip(from).map(|at| squares.cell_at(at)).collect();
         way.dedup();
         let mut founded: BTreeMap<u32, Point> = BTreeMap::new();
@@ -101,13 +102,6 @@ impl TrueVisits {
         }
     }
 }
-
-/// Reason why a map cannot be judged.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
-#[error(
-    "nobody knows the true places of a world with free walls, and the map has no positions: drive by it with `tolman drive`"
-)]
-pub struct NoTruth;
 
 /// Limit of the places' error in a right map of a free world, root mean square, m.
 const MOST_ERROR: f64 = 0.5;
@@ -152,30 +146,33 @@ impl Evidence {
     /// Returns why a map is wrong or unfinished as one of the course, in a sentence without a full
     /// stop; `None` if it is right.
     ///
-    /// In a maze the [judgement](Self::judge) decides. A world of free walls has no graph of cells.
-    /// There the places have to lie where they truly are, and to cover the floor. O(cells ·
-    /// places).
-    ///
-    /// # Errors
-    /// [`NoTruth`] in a world of free walls if the map has no positions.
-    pub fn complaint(
-        &self,
-        map: &MapView,
-        course: &Course,
-        rule: PlaceRule,
-    ) -> Result<Option<String>, NoTruth> {
-        if !course.is_free() {
-            let truth = TrueGraph::of(&course.maze, rule);
-            return Ok(self.judge(map, &truth).complaint());
+    /// The [judgement](Self::judge) decides. In a world of free walls a map is also right if its
+    /// places lie where they truly are, and cover the floor: a chart needs no graph of passages.
+    /// O(cells · places).
+    pub fn complaint(&self, map: &MapView, course: &Course, rule: PlaceRule) -> Option<String> {
+        let complaint = self
+            .judge(map, &TrueGraph::of_course(course, rule))
+            .complaint()?;
+        match self
+            .complaint_of_chart(map, course)
+            .filter(|_| course.is_free())
+        {
+            Some(of_chart) => of_chart,
+            None => Some(complaint),
         }
+    }
+
+    /// Returns why a map is no chart of a free world, `Some(None)` if it is one, and `None` if its
+    /// places have no positions.
+    fn complaint_of_chart(&self, map: &MapView, course: &Course) -> Option<Option<String>> {
         let founded: BTreeMap<u32, Point> = (self.founded.iter())
             .map(|(place, at)| (*place, Point::from(*at)))
             .collect();
         let both = |place: &MapPlace| Some((place.position?, *founded.get(&place.id)?));
         let (places, sites): (Vec<Point>, Vec<Point>) = map.places.iter().filter_map(both).unzip();
-        let laid = LaidOver::of_places(places.into_iter(), &sites).ok_or(NoTruth)?;
+        let laid = LaidOver::of_places(places.into_iter(), &sites)?;
         if laid.error_m > MOST_ERROR {
-            return Ok(Some(format!(
+            return Some(Some(format!(
                 "its places lie {:.1} m from where they truly are",
                 laid.error_m
             )));
@@ -187,7 +184,7 @@ impl Evidence {
         let is_near = |cell: &&Point| founded.values().any(|at| (at - **cell).norm() <= NEAR);
         let covered = cells.iter().filter(is_near).count();
         let share = covered as f64 / cells.len().max(1) as f64;
-        Ok((share < LEAST_COVERED).then(|| {
+        Some((share < LEAST_COVERED).then(|| {
             format!(
                 "it has places near {:.0} % of the floor alone",
                 100.0 * share

@@ -9,12 +9,14 @@
 mod claim;
 mod condition;
 mod evidence;
+mod floor_graph;
 mod ideal;
 mod judgement;
 mod paint;
 mod play;
 mod show;
 mod sites;
+mod spots;
 mod stepped;
 mod true_graph;
 mod wanderers;
@@ -23,7 +25,7 @@ mod whereabouts;
 pub use claim::Claim;
 pub use condition::Condition;
 pub(crate) use condition::with_door;
-pub use evidence::{Evidence, NoTruth, TrueVisits};
+pub use evidence::{Evidence, TrueVisits};
 pub use judgement::MapJudgement;
 pub use play::{
     Contest, ContestError, ContestRecord, Home, LearnRecord, LocateOutcome, Located, Moment,

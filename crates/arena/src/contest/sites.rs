@@ -4,6 +4,7 @@ use tolman_geom::{Point, Vector};
 use tolman_maze::Cell;
 use tolman_robot::{Guess, MapView, Position};
 
+use super::spots::Spots;
 use super::whereabouts::{Squares, offset};
 
 /// True positions of a learned map.
@@ -17,15 +18,20 @@ pub(super) struct Sites {
 
 impl Sites {
     /// Returns the true positions of a map whose places stand for these cells.
-    pub(super) fn of(map: &MapView, cells: BTreeMap<u32, Cell>, squares: Squares) -> Self {
-        let placed = map.places.iter();
-        let placed = placed.filter_map(|place| Some((place, *cells.get(&place.id)?)));
-        let offset = offset(placed, squares);
+    pub(super) fn of(
+        map: &MapView,
+        cells: BTreeMap<u32, Cell>,
+        squares: Squares,
+        spots: &Spots,
+    ) -> Self {
         let places = cells.into_iter();
-        let places = places.map(|(place, cell)| (place, squares.middle(cell)));
+        let places = places.map(|(place, cell)| (place, spots.middle(cell, squares)));
+        let places: BTreeMap<u32, Point> = places.collect();
+        let placed = map.places.iter();
+        let placed = placed.filter_map(|place| Some((place, *places.get(&place.id)?)));
         Self {
-            places: places.collect(),
-            offset,
+            offset: offset(placed),
+            places,
         }
     }
 
@@ -61,6 +67,7 @@ mod tests {
         let squares = Squares {
             grid: Grid::new(4, 4),
             pitch: 2.0,
+            origin: Point::origin(),
         };
         let place = |id, x| MapPlace {
             id,
@@ -72,7 +79,7 @@ mod tests {
             links: Vec::new(),
         };
         let cells = BTreeMap::from([(0, Cell::new(1, 1)), (1, Cell::new(3, 1))]);
-        let sites = Sites::of(&map, cells, squares);
+        let sites = Sites::of(&map, cells, squares, &Spots::default());
         let here = Point::new(7.2, 3.1);
         let guess = |at, weight| Guess { at, weight };
         let belief = [

@@ -19,6 +19,8 @@ pub(super) struct Squares {
     pub(super) grid: Grid,
     /// Distance between the middles of two cells, m.
     pub(super) pitch: f64,
+    /// South-west corner of the first cell, m.
+    pub(super) origin: Point,
 }
 
 impl Squares {
@@ -27,6 +29,14 @@ impl Squares {
         Self {
             grid: course.maze.grid(),
             pitch: course.pitch(),
+            origin: match course.is_free() {
+                true => {
+                    let half = Vector::new(0.5 * course.pitch(), 0.5 * course.pitch());
+                    course.cell_centre(Cell::new(0, 0)) - half
+                }
+                // Computed, it would be off by a rounding.
+                false => Point::origin(),
+            },
         }
     }
 
@@ -36,15 +46,16 @@ impl Squares {
             let cell = libm::floor(metres / self.pitch);
             cell.clamp(0.0, f64::from(cells.saturating_sub(1))) as u16
         };
+        let from = point - self.origin;
         Cell::new(
-            along(point.x, self.grid.width()),
-            along(point.y, self.grid.height()),
+            along(from.x, self.grid.width()),
+            along(from.y, self.grid.height()),
         )
     }
 
     pub(super) fn middle(self, cell: Cell) -> Point {
         let along = |index: u16| (f64::from(index) + 0.5) * self.pitch;
-        Point::new(along(cell.x), along(cell.y))
+        self.origin + Vector::new(along(cell.x), along(cell.y))
     }
 }
 
@@ -63,17 +74,14 @@ fn nearest(map: &MapView, point: Point) -> Option<u32> {
     nearest.map(|(id, _)| id)
 }
 
-/// Returns the offset of a map's frame from the world's, m, by the visited places; `None` if none
-/// of them has a position. The axes are assumed to be the same.
-pub(super) fn offset<'a>(
-    places: impl Iterator<Item = (&'a MapPlace, Cell)>,
-    squares: Squares,
-) -> Option<Vector> {
+/// Returns the offset of a map's frame from the world's, m, by the visited places and the middles
+/// of their spots; `None` if none of them has a position. The axes are assumed to be the same.
+pub(super) fn offset<'a>(places: impl Iterator<Item = (&'a MapPlace, Point)>) -> Option<Vector> {
     let mut count = 0.0;
     let mut sum = Vector::zeros();
-    for (place, cell) in places {
+    for (place, middle) in places {
         if let Some(position) = place.position {
-            sum += squares.middle(cell) - position;
+            sum += middle - position;
             count += 1.0;
         }
     }

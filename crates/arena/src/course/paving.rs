@@ -3,7 +3,7 @@
 use tolman_geom::{Point, Pose, Vector};
 use tolman_maze::{Cell, Direction, Grid, Maze};
 use tolman_robot::Body;
-use tolman_sim::{Area, Material, WallSegment, World, Zone};
+use tolman_sim::{Material, WallSegment, World, Zone};
 
 use super::CourseError;
 
@@ -17,7 +17,7 @@ pub(super) struct Paving {
     pub(super) pitch: f64,
     grid: Grid,
     /// Minimum distance of the body's centre from a wall, m.
-    radius: f64,
+    pub(super) radius: f64,
 }
 
 /// Side of a square, in radii of the body. Any passage that is wider than the body by half a radius
@@ -127,7 +127,7 @@ impl Paving {
         let middles = zone
             .areas()
             .iter()
-            .filter_map(|area| self.cell_at(middle(area)));
+            .filter_map(|area| self.cell_at(area.middle()));
         inside.chain(middles).collect()
     }
 
@@ -165,7 +165,7 @@ impl Paving {
 
     /// Returns the middle of the zone `start`, looking along the longest way that is clear there.
     pub(super) fn start(&self, maze: &Maze, world: &World) -> Option<Pose> {
-        let position = middle(world.zone("start")?.areas().first()?);
+        let position = world.zone("start")?.areas().first()?.middle();
         let cell = self.cell_at(position)?;
         let clear = |direction: &Direction| core::cmp::Reverse(run(maze, cell, *direction));
         let direction = Direction::ALL.into_iter().min_by_key(clear)?;
@@ -191,12 +191,5 @@ fn run(maze: &Maze, cell: Cell, direction: Direction) -> u32 {
 fn wall_up(maze: &mut Maze, cell: Cell) {
     for direction in Direction::ALL {
         maze.set_wall(cell, direction, true);
-    }
-}
-
-fn middle(area: &Area) -> Point {
-    match area {
-        Area::Rectangle(bounds) => bounds.min + 0.5 * (bounds.max - bounds.min),
-        Area::Disc { centre, .. } => *centre,
     }
 }

@@ -95,11 +95,7 @@ impl MapText {
         let truth = self.truth.as_ref();
         let truth =
             truth.ok_or("the file does not say where the robot truly was: learn it again")?;
-        match truth.complaint(&map.view()?, &course, system.facts().places) {
-            Ok(complaint) => Ok(complaint),
-            // The map's own account is left.
-            Err(unknown) => map.doubt().map(Some).ok_or_else(|| unknown.into()),
-        }
+        Ok(truth.complaint(&map.view()?, &course, system.facts().places))
     }
 }
 
@@ -136,11 +132,6 @@ pub trait LearnedMap {
     /// If such maps cannot be checked.
     fn view(&self) -> Result<MapView, BoxError> {
         Err("such a map cannot be checked".into())
-    }
-
-    /// Returns why the map may be wrong or unfinished by its own account; `None` without a reason.
-    fn doubt(&self) -> Option<String> {
-        None
     }
 
     /// Returns the judgement of a map of a world whose true places are not cells: `Some(None)` if

@@ -32,6 +32,15 @@ pub enum Area {
 const DISC_CORNERS: u32 = 48;
 
 impl Area {
+    /// Returns the middle, m.
+    #[must_use]
+    pub fn middle(&self) -> Point {
+        match self {
+            Self::Rectangle(bounds) => bounds.min + 0.5 * (bounds.max - bounds.min),
+            Self::Disc { centre, .. } => *centre,
+        }
+    }
+
     /// Returns whether `point` lies in it or on its edge.
     #[must_use]
     pub fn contains(&self, point: Point) -> bool {

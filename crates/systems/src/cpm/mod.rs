@@ -101,7 +101,7 @@ pub use of_sites::CpmOfSites;
 pub use relocalization::Relocalization;
 pub use ring_as_epuck::{RingAsEpuck, RingMeasures, UnfitRing};
 pub use robot::CpmRobot;
-pub use system::{Cpm, CpmObserveError, doubt, view};
+pub use system::{Cpm, CpmObserveError, view};
 pub use walker::{
     BeforePlace, Observation, Prospect, RestingWalker, Walk, WalkError, WalkResult, Walker,
 };

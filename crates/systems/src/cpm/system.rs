@@ -475,7 +475,8 @@ impl Mapper for Cpm {
     }
 
     fn doubt(&self) -> Option<String> {
-        doubt(self.explorer()?.mapper.map())
+        let open = self.explorer()?.mapper.map().open_ports().count();
+        (open > 0).then(|| format!("{open} of its ports are unexplored"))
     }
 
     fn map_bytes(&self) -> Option<usize> {
@@ -490,13 +491,6 @@ impl Mapper for Cpm {
         let layer = self.layer.as_ref();
         layer.map_or_else(Vec::new, |layer| self.trail.places(layer.map()))
     }
-}
-
-/// Returns why a map is unfinished by its own account; `None` if all its ports are explored.
-#[must_use]
-pub fn doubt(map: &CpMap) -> Option<String> {
-    let open = map.open_ports().count();
-    (open > 0).then(|| format!("{open} of its ports are unexplored"))
 }
 
 /// Returns a map as places and links; a fragment leads both ways. O(map).

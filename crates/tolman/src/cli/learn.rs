@@ -292,19 +292,24 @@ impl Verdict {
         own: Option<String>,
     ) -> Self {
         let course = outing.course();
-        let judged = truth.and_then(|truth| {
-            let judge = || truth.complaint(&outing.map(), course, system.facts().places);
-            map.judged_apart().or_else(|| judge().ok())
+        let view = outing.map();
+        let judged = truth.map(|truth| {
+            let judge = || truth.complaint(&view, course, system.facts().places);
+            map.judged_apart().unwrap_or_else(judge)
         });
-        // A system that does not claim that its map is whole is not reproached for it.
-        let claims = system.facts().claims || course.is_free();
+        // A system that does not claim that its map is whole is not reproached for it, unless the
+        // map is a chart.
+        let is_chart = view.places.iter().any(|place| place.position.is_some());
+        let claims = system.facts().claims || course.is_free() && is_chart;
         let found = judged.clone().flatten().filter(|_| claims);
-        let complaint = own.or(found).map(|complaint| {
-            match system.abstains(&course.maze).filter(|_| !course.is_free()) {
-                Some(unfit) => format!("{complaint}; {unfit}"),
-                None => complaint,
-            }
-        });
+        let unfit = system.abstains(&course.maze);
+        let unfit = unfit
+            .filter(|_| !course.is_free())
+            .map(|why| why.to_string());
+        let complaint = match (own.or(found), unfit) {
+            (Some(complaint), Some(unfit)) => Some(format!("{complaint}; {unfit}")),
+            (complaint, unfit) => complaint.or(unfit),
+        };
         Self { judged, complaint }
     }
 }

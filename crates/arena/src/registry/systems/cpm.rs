@@ -369,10 +369,6 @@ impl LearnedMap for MapFile {
         Ok(cpm::view(&self.map))
     }
 
-    fn doubt(&self) -> Option<String> {
-        cpm::doubt(&self.map)
-    }
-
     fn course(&self, world: &str, terrain: &Terrain) -> Result<Course, BoxError> {
         let robot = Registry::current().robot(&self.origin.robot);
         Ok(match robot.map(|robot| robot.kind()) {
