@@ -3,10 +3,13 @@
 use std::env;
 use std::ffi::OsString;
 use std::fs;
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use anyhow::{Context, Result, anyhow, bail, ensure};
+use flate2::Compression;
+use flate2::write::GzEncoder;
 
 use crate::ci::Outcome;
 use crate::workspace::{cargo, output, read, root, succeed, target_folder};
@@ -131,8 +134,8 @@ fn build(file: &Path) -> Result<()> {
 }
 
 /// Replaces the placeholders of the page by files of the workspace or of the folder `bound`. `{{
-/// PATH }}` is a file's text, `{{ string PATH }}` the same as a string of JavaScript, and `{{
-/// base64 PATH }}` its bytes.
+/// PATH }}` is a file's text, `{{ string PATH }}` the same as a string of JavaScript, and `{{ gzip
+/// PATH }}` its bytes, compressed and in base64.
 fn fill(page: &str, bound: &Path) -> Result<String> {
     let mut parts = page.split("{{ ");
     let mut filled = parts.next().unwrap_or_default().to_owned();
@@ -147,7 +150,7 @@ fn fill(page: &str, bound: &Path) -> Result<String> {
         };
         let bytes = fs::read(&path).with_context(|| format!("cannot read {}", path.display()))?;
         let text = match form {
-            "base64" => base64(&bytes),
+            "gzip" => base64(&gzip(&bytes)?),
             "string" => serde_json::to_string(&String::from_utf8(bytes)?)?,
             _ => String::from_utf8(bytes)?,
         };
@@ -160,6 +163,13 @@ fn fill(page: &str, bound: &Path) -> Result<String> {
         filled.push_str(rest);
     }
     Ok(filled)
+}
+
+/// Returns `bytes` in gzip, which browsers expand themselves.
+fn gzip(bytes: &[u8]) -> Result<Vec<u8>> {
+    let mut gzip = GzEncoder::new(Vec::new(), Compression::best());
+    gzip.write_all(bytes)?;
+    Ok(gzip.finish()?)
 }
 
 /// Returns `bytes` in base64.

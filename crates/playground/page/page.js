@@ -9,9 +9,9 @@
 
   // ---------------------------------------------------------------- the module
 
-  const letters = atob(part("module").textContent), bytes = new Uint8Array(letters.length);
-  for (let i = 0; i < bytes.length; i++) bytes[i] = letters.charCodeAt(i);
-  await wasm_bindgen({ module_or_path: bytes });
+  const zipped = new Blob([Uint8Array.from(atob(part("module").textContent), letter => letter.charCodeAt(0))]);
+  const bytes = zipped.stream().pipeThrough(new DecompressionStream("gzip"));
+  await wasm_bindgen({ module_or_path: new Response(bytes, { headers: { "Content-Type": "application/wasm" } }) });
   const page = new wasm_bindgen.PlaygroundPage(MAZE);
 
   // ---------------------------------------------------------------- words
