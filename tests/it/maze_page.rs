@@ -6,7 +6,7 @@ const PAGE: &str = include_str!("../../docs/maze-format.md");
 
 /// Returns the text of the page's first block marked `maze`.
 fn example() -> &'static str {
-    let (_, block) = PAGE.split_once("```maze\n").unwrap();
+    let (_, block) = PAGE.split_once("```text\n").unwrap();
     block.split_once("```").unwrap().0
 }
 

@@ -1,19 +1,19 @@
 //! `cargo xtask site`: one folder of pages that shows the project before anything is compiled. It
 //! opens from disk, and no page asks another host for anything.
 
+mod api;
 mod book;
 mod exhibits;
 mod links;
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
 use anyhow::{Context, Result, bail, ensure};
 
 use crate::ci::Outcome;
+use crate::playground;
 use crate::workspace::{cargo, root, succeed, target_folder};
-use crate::{docs, playground};
 
 /// Page that the folder begins with. Its pictures and links are those that the other parts make.
 const FRONT: &str = include_str!("site/front.html");
@@ -98,10 +98,7 @@ fn build(out: &Path) -> Result<()> {
     exhibits::make(&target_folder()?.join("release/tolman"), out)?;
     playground::run(Some(&out.join("playground.html")))?;
     book::make(out)?;
-    docs::api(|arguments| Ok(cargo(arguments)))?;
-    let mut copy = Command::new("cp");
-    copy.arg("-r").arg(target_folder()?.join("doc"));
-    succeed(copy.arg(out.join("api")))?;
+    api::make(out)?;
     front(out)?;
     links::check(out)
 }

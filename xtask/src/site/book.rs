@@ -24,6 +24,23 @@ const OUTSIDE: &[(&str, &str)] = &[
     ("CHANGELOG.md", "changelog.md"),
 ];
 
+/// Settings of mdBook. Code that could be run in a browser would be sent to another host.
+const BOOK: &str = "\
+[book]
+title = \"tolman\"
+
+[output.html]
+preferred-dark-theme = \"navy\"
+input-404 = \"\"
+no-section-label = true
+
+[output.html.playground]
+runnable = false
+
+[output.html.print]
+enable = false
+";
+
 /// Returns how to install mdBook, if it is not installed.
 pub(super) fn missing() -> Option<String> {
     let found = Command::new("mdbook").arg("--version").output();
@@ -83,11 +100,7 @@ pub(super) fn make(out: &Path) -> Result<()> {
         fs::write(source.join(place), text)?;
     }
     fs::write(source.join("SUMMARY.md"), summary)?;
-    fs::write(
-        work.join("book.toml"),
-        "[book]\ntitle = \"tolman\"\n\n[output.html]\npreferred-dark-theme = \"navy\"\ninput-404 = \"\"\n\n\
-         [output.html.print]\nenable = false\n",
-    )?;
+    fs::write(work.join("book.toml"), BOOK)?;
     let mut build = Command::new("mdbook");
     build.arg("build").arg(&work).arg("--dest-dir");
     succeed(build.arg(out.join("docs")))

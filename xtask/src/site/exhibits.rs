@@ -9,8 +9,7 @@ use anyhow::{Context, Result, ensure};
 use crate::workspace::root;
 
 /// What the command writes: the page in the folder of the site, and the words of the command, in
-/// which `OUT` stands for the page's file, or its folder if the page is in one. `MAP` stands for a
-/// file that nobody needs afterwards.
+/// which `OUT` stands for the page's file, or its folder if the command writes a folder.
 pub(super) struct Exhibit {
     pub(super) page: &'static str,
     words: &'static str,
@@ -58,7 +57,7 @@ pub(super) const EXHIBITS: &[Exhibit] = &[
     ),
     exhibit(
         "replays/rooms.html",
-        "learn --system mslst --world mazes/worlds/rooms.json --set scan_steps=3000 --set graph_actions=5000 --out MAP --replay OUT",
+        "learn --system mslst --world mazes/worlds/rooms.json --set scan_steps=3000 --set graph_actions=5000 --out replays/rooms.json --replay OUT",
     ),
     exhibit(
         "office/replay.html",
@@ -84,36 +83,39 @@ pub(super) const BEHIND: &[(&str, &str)] = &[
     ("arena-heat-map.svg", "replays/cpm-better.html"),
 ];
 
-/// Lets `tolman` write all pages into `out`.
+/// Lets `tolman` write all pages into `out`. It works there, on copies of the mazes and logs that
+/// it is given: the pages show the commands, which then hold in the folder.
 ///
 /// # Errors
 /// If a command writes none.
 pub(super) fn make(tolman: &Path, out: &Path) -> Result<()> {
     for Exhibit { page, words } in EXHIBITS {
-        let file = out.join(page);
-        let folder = file.parent().context("a page is in a folder")?;
-        let target = if page.starts_with("replays/") {
-            fs::create_dir_all(folder)?;
-            &file
+        let (folder, _) = page.split_once('/').context("a page is in a folder")?;
+        let target = if folder == "replays" {
+            fs::create_dir_all(out.join(folder))?;
+            page
         } else {
             folder
         };
+        let words = words.replace("OUT", target);
+        let given = words.split(' ').filter(|word| root().join(word).is_file());
+        for file in given {
+            let copy = out.join(file);
+            fs::create_dir_all(copy.parent().unwrap_or(out))?;
+            fs::copy(root().join(file), copy)?;
+        }
         eprintln!("tolman {words}");
         let mut command = Command::new(tolman);
-        command.current_dir(root());
-        for word in words.split(' ') {
-            match word {
-                "OUT" => command.arg(target),
-                "MAP" => command.arg(tolman.with_file_name("site-map.json")),
-                word => command.arg(word),
-            };
-        }
         let done = command
+            .current_dir(out)
+            // No data of others.
+            .env_remove("TOLMAN_DATA")
+            .args(words.split(' '))
             .output()
             .with_context(|| format!("cannot start {}", tolman.display()))?;
         // Exit code 1 is a verdict, which the page shows too.
         ensure!(
-            done.status.code().is_some_and(|code| code < 2) && file.is_file(),
+            done.status.code().is_some_and(|code| code < 2) && out.join(page).is_file(),
             "`tolman {words}` wrote no {page}: {}",
             String::from_utf8_lossy(&done.stderr)
         );

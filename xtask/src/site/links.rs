@@ -23,7 +23,7 @@ pub(super) fn check(site: &Path) -> Result<()> {
     let mut faults = Vec::new();
     for page in &pages {
         for link in links(&read(page)?) {
-            if let Some(fault) = fault(page, &link, &mut names) {
+            if let Some(fault) = fault(site, page, &link, &mut names) {
                 let page = page.strip_prefix(site).unwrap_or(page);
                 faults.push(format!("{}: {fault}", page.display()));
             }
@@ -75,9 +75,10 @@ fn links(page: &str) -> Vec<Link> {
     links
 }
 
-/// Returns what is wrong with a link of `page`, or `None`. `names` keeps the names within the pages
-/// that links have led to.
+/// Returns what is wrong with a link of `page` in `site`, or `None`. `names` keeps the names within
+/// the pages that links have led to.
 fn fault(
+    site: &Path,
     page: &Path,
     link: &Link,
     names: &mut HashMap<PathBuf, HashSet<String>>,
@@ -86,6 +87,7 @@ fn fault(
     if ["data:", "javascript:", "mailto:"]
         .iter()
         .any(|form| target.starts_with(form))
+        || is_left_by_rustdoc(target)
     {
         return None;
     }
@@ -107,12 +109,17 @@ fn fault(
         return Some(format!("{target} leads nowhere"));
     }
     // A replay's anchor is a time, and the API's pages make some of theirs by a script.
-    let has_names = anchor.is_empty() || !there.components().any(|part| part.as_os_str() == "docs");
-    if has_names {
+    if anchor.is_empty() || !there.starts_with(site.join("docs")) {
         return None;
     }
     let known = names.entry(there).or_insert_with_key(|there| ids(there));
     (!known.contains(anchor)).then(|| format!("{target}: no such heading"))
+}
+
+/// Returns whether rustdoc writes such a link to something that need not be there: a list of
+/// implementations in other crates, or a path in the text of a crate that is not in the site.
+fn is_left_by_rustdoc(target: &str) -> bool {
+    target.contains("trait.impl/") || target.contains("::") && !target.starts_with("tolman_")
 }
 
 /// Returns the ids in a page.
@@ -121,4 +128,29 @@ fn ids(page: &Path) -> HashSet<String> {
     let ids = text.split(" id=\"").skip(1);
     ids.filter_map(|rest| rest.split('"').next().map(str::to_owned))
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_link_into_the_void_and_a_request_to_another_host_are_faults() {
+        let site = std::env::temp_dir().join("tolman-site-links");
+        fs::create_dir_all(site.join("docs")).unwrap();
+        fs::write(site.join("docs/a.html"), "<h2 id=\"here\">").unwrap();
+        let faults = |page: &str| {
+            fs::write(site.join("index.html"), page).unwrap();
+            check(&site).err().map(|error| error.to_string())
+        };
+        for right in ["docs/a.html#here", "https://example.org", "#"] {
+            assert_eq!(faults(&format!("<a href=\"{right}\">")), None, "{right}");
+        }
+        for wrong in ["docs/b.html", "docs/a.html#there", "tolman_maze::Grid"] {
+            let told = faults(&format!("<a href=\"{wrong}\">")).unwrap();
+            assert!(told.contains(wrong), "{told}");
+        }
+        let told = faults("<img src=\"https://example.org/a.png\">").unwrap();
+        assert!(told.contains("from another host"), "{told}");
+    }
 }

@@ -68,7 +68,7 @@ pub(crate) fn assert_faultless(pages: &[PathBuf]) {
 }
 
 /// Returns all pages below a folder.
-fn below(folder: &Path) -> Vec<PathBuf> {
+pub(crate) fn below(folder: &Path) -> Vec<PathBuf> {
     let mut pages = Vec::new();
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
