@@ -4,7 +4,7 @@ use tolman_maze::{Cell, Format, read};
 
 const PAGE: &str = include_str!("../../docs/maze-format.md");
 
-/// Returns the text of the page's first block marked `maze`.
+/// Returns the text of the page's first block marked `text`.
 fn example() -> &'static str {
     let (_, block) = PAGE.split_once("```text\n").unwrap();
     block.split_once("```").unwrap().0
