@@ -78,6 +78,10 @@ pub(super) fn judge(
     truth: &TrueGraph,
     gone: &BTreeSet<usize>,
 ) -> MapJudgement {
+    let spots = stands_for.iter();
+    let stands_for: &BTreeMap<u32, Cell> = &spots
+        .map(|(place, cell)| (*place, truth.spots().at(*cell)))
+        .collect();
     let chart = Chart::of(map, stands_for, truth);
     let mut found: BTreeSet<usize> = BTreeSet::new();
     let (mut links, mut right_links) = (0_usize, 0_usize);
@@ -144,35 +148,41 @@ pub(super) fn stands_for(
     let mut taken: BTreeMap<u32, BTreeMap<Cell, usize>> = BTreeMap::new();
     for visit in visits.iter().filter(|visit| ids.contains(&visit.place)) {
         let cells = taken.entry(visit.place).or_default();
-        *cells.entry(spots.at(visit.cell)).or_default() += 1;
+        *cells.entry(visit.cell).or_default() += 1;
     }
     let all: usize = taken.values().flat_map(BTreeMap::values).sum();
     let mut pure = 0;
     let mut stands_for = BTreeMap::new();
     for (place, cells) in taken {
-        // If several cells are equally frequent, the first counts.
-        let most = cells
-            .iter()
-            .max_by_key(|(cell, count)| (**count, Reverse(**cell)));
-        if let Some((cell, count)) = most {
+        let mut of_spots: BTreeMap<Cell, usize> = BTreeMap::new();
+        for (cell, count) in &cells {
+            *of_spots.entry(spots.at(*cell)).or_default() += count;
+        }
+        if let Some((spot, count)) = most(of_spots) {
             pure += count;
-            stands_for.insert(place, *cell);
+            let inside = cells
+                .into_iter()
+                .filter(|(cell, _)| spots.at(*cell) == spot);
+            stands_for.extend(most(inside).map(|(cell, _)| (place, cell)));
         }
     }
     let visited = map.places.iter();
-    let visited = visited.filter_map(|place| {
-        let cell = stands_for.get(&place.id)?;
-        Some((place, spots.middle(*cell, squares)))
-    });
-    if let Some(offset) = offset(visited) {
+    let visited = visited.filter_map(|place| Some((place, *stands_for.get(&place.id)?)));
+    if let Some(offset) = offset(visited, squares) {
         for MapPlace { id, position, .. } in &map.places {
             if let Some(position) = position {
-                let cell = spots.at(squares.cell_at(position + offset));
+                let cell = squares.cell_at(position + offset);
                 stands_for.entry(*id).or_insert(cell);
             }
         }
     }
     (stands_for, (all > 0).then(|| share(pure, all)))
+}
+
+/// Returns the most frequent cell, and how often it was counted. Of several the first counts.
+fn most(counts: impl IntoIterator<Item = (Cell, usize)>) -> Option<(Cell, usize)> {
+    let counts = counts.into_iter();
+    counts.max_by_key(|(cell, count)| (*count, Reverse(*cell)))
 }
 
 /// Returns the place that counts for each place of a room: the first of those that links join.

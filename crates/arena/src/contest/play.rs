@@ -675,7 +675,7 @@ impl Bout {
         let map = self.outing.map();
         let evidence = been.evidence(&*self.outing, driven.from);
         let judgement = evidence.judge(&map, &self.truth);
-        self.sites = Sites::of(&map, evidence.cells(), self.squares, self.truth.spots());
+        self.sites = Sites::of(&map, evidence.cells(), self.squares);
         let certainty = self.outing.certainty();
         LearnRecord {
             claim: Claim::of(&driven.end, self.claims, &*self.outing),

@@ -4,7 +4,6 @@ use tolman_geom::{Point, Vector};
 use tolman_maze::Cell;
 use tolman_robot::{Guess, MapView, Position};
 
-use super::spots::Spots;
 use super::whereabouts::{Squares, offset};
 
 /// True positions of a learned map.
@@ -18,20 +17,15 @@ pub(super) struct Sites {
 
 impl Sites {
     /// Returns the true positions of a map whose places stand for these cells.
-    pub(super) fn of(
-        map: &MapView,
-        cells: BTreeMap<u32, Cell>,
-        squares: Squares,
-        spots: &Spots,
-    ) -> Self {
-        let places = cells.into_iter();
-        let places = places.map(|(place, cell)| (place, spots.middle(cell, squares)));
-        let places: BTreeMap<u32, Point> = places.collect();
+    pub(super) fn of(map: &MapView, cells: BTreeMap<u32, Cell>, squares: Squares) -> Self {
         let placed = map.places.iter();
-        let placed = placed.filter_map(|place| Some((place, *places.get(&place.id)?)));
+        let placed = placed.filter_map(|place| Some((place, *cells.get(&place.id)?)));
+        let offset = offset(placed, squares);
+        let places = cells.into_iter();
+        let places = places.map(|(place, cell)| (place, squares.middle(cell)));
         Self {
-            offset: offset(placed),
-            places,
+            places: places.collect(),
+            offset,
         }
     }
 
@@ -79,7 +73,7 @@ mod tests {
             links: Vec::new(),
         };
         let cells = BTreeMap::from([(0, Cell::new(1, 1)), (1, Cell::new(3, 1))]);
-        let sites = Sites::of(&map, cells, squares, &Spots::default());
+        let sites = Sites::of(&map, cells, squares);
         let here = Point::new(7.2, 3.1);
         let guess = |at, weight| Guess { at, weight };
         let belief = [

@@ -1,6 +1,5 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 
-use tolman_geom::{Point, Vector};
 use tolman_maze::{Cell, Direction, Maze};
 
 use super::floor_graph::FloorGraph;
@@ -86,20 +85,5 @@ impl Spots {
     /// Returns whether a cell shares its spot with others.
     pub(super) fn is_shared(&self, cell: Cell) -> bool {
         self.spots.contains_key(&cell)
-    }
-
-    /// Returns the middle of the spot that a cell stands for, m.
-    pub(super) fn middle(&self, of: Cell, squares: Squares) -> Point {
-        let cells = self.spots.iter().filter(|(_, spot)| **spot == of);
-        let middles: Vec<Point> = cells.map(|(cell, _)| squares.middle(*cell)).collect();
-        match middles.len() {
-            0 => squares.middle(of),
-            count => {
-                let sum = middles
-                    .iter()
-                    .fold(Vector::zeros(), |sum, at| sum + at.coords);
-                Point::from(sum / count as f64)
-            }
-        }
     }
 }

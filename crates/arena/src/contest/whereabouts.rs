@@ -74,14 +74,17 @@ fn nearest(map: &MapView, point: Point) -> Option<u32> {
     nearest.map(|(id, _)| id)
 }
 
-/// Returns the offset of a map's frame from the world's, m, by the visited places and the middles
-/// of their spots; `None` if none of them has a position. The axes are assumed to be the same.
-pub(super) fn offset<'a>(places: impl Iterator<Item = (&'a MapPlace, Point)>) -> Option<Vector> {
+/// Returns the offset of a map's frame from the world's, m, by the visited places; `None` if none
+/// of them has a position. The axes are assumed to be the same.
+pub(super) fn offset<'a>(
+    places: impl Iterator<Item = (&'a MapPlace, Cell)>,
+    squares: Squares,
+) -> Option<Vector> {
     let mut count = 0.0;
     let mut sum = Vector::zeros();
-    for (place, middle) in places {
+    for (place, cell) in places {
         if let Some(position) = place.position {
-            sum += middle - position;
+            sum += squares.middle(cell) - position;
             count += 1.0;
         }
     }
