@@ -5,6 +5,7 @@ mod terrain;
 #[cfg(test)]
 mod tests;
 
+use alloc::collections::VecDeque;
 use alloc::sync::Arc;
 use core::f64::consts::PI;
 use core::hash::Hasher;
@@ -135,10 +136,6 @@ struct FreeFloor {
     /// The world's file.
     text: Arc<str>,
 }
-
-/// Side of the cells in which ways of a robot are searched, in radii of its body. This much is left
-/// to the grid.
-const GRID: f64 = 0.25;
 
 /// MSLST gives a robot 500 time steps in its Large maze; the first one drawn here has 63 cells to
 /// start from, each [`CORRIDOR_WIDTH`] wide.
@@ -354,31 +351,55 @@ impl Course {
     /// `radius`, m, which touches no wall.
     #[must_use]
     pub fn shortest_drive(&self, from: Point, radius: f64) -> Option<f64> {
-        let step = GRID * radius;
-        let left = |at: Point| if self.is_destination(at) { 0.0 } else { step };
-        let way = self.drive(from, radius, left)?;
-        let lengths = way.windows(2).map(|piece| (piece[1] - piece[0]).norm());
-        Some(lengths.sum())
-    }
-
-    /// Returns the corners of a shortest way of such a robot from one position to another, with its
-    /// ends; `None` if there is none.
-    #[must_use]
-    pub fn way_between(&self, from: Point, to: Point, radius: f64) -> Option<Vec<Point>> {
-        let step = GRID * radius;
-        let left = |at: Point| match (at - to).norm() {
-            far if far <= step => 0.0,
-            far => far,
-        };
-        self.drive(from, radius, left)
-    }
-
-    fn drive(&self, from: Point, radius: f64, left: impl Fn(Point) -> f64) -> Option<Vec<Point>> {
-        let pitch = GRID * radius;
+        // A quarter of the disc is left to the grid.
+        let pitch = 0.25 * radius;
         let radius = radius - pitch;
         let body = Body::Circle { radius };
         let is_floor = |at: Point| self.world.clear_for(&body, Pose::new(at, Heading::EAST));
-        taut_way(from, pitch, is_floor, left)
+        let left = |at: Point| if self.is_destination(at) { 0.0 } else { pitch };
+        let way = taut_way(from, pitch, is_floor, left)?;
+        Some(
+            way.windows(2)
+                .map(|piece| (piece[1] - piece[0]).norm())
+                .sum(),
+        )
+    }
+
+    /// Returns the middles of the cells at which a shortest way from one position to another turns;
+    /// `None` if there is none. O(cells).
+    #[must_use]
+    pub fn turns_between(&self, from: Point, to: Point) -> Option<Vec<Point>> {
+        let cell_at = |at: Point| match &self.free {
+            Some(free) => free.paving.cell_at(at),
+            None => self.world.cell_at(at),
+        };
+        let (from, to) = (cell_at(from)?, cell_at(to)?);
+        // The direction to the next cell of the way.
+        let mut onward: Vec<Option<Direction>> = vec![None; self.maze.grid().cells().count()];
+        let mut left = VecDeque::from([to]);
+        while let Some(cell) = left.pop_front() {
+            if cell == from {
+                break;
+            }
+            for (way, next) in self.maze.neighbours(cell) {
+                let known = &mut onward[self.maze.grid().index(next)];
+                if known.is_none() && next != to {
+                    *known = Some(way.opposite());
+                    left.push_back(next);
+                }
+            }
+        }
+        let (mut at, mut ahead, mut turns) = (from, None, vec![self.cell_centre(from)]);
+        while at != to {
+            let way = onward[self.maze.grid().index(at)]?;
+            if ahead.is_some_and(|ahead| ahead != way) {
+                turns.push(self.cell_centre(at));
+            }
+            ahead = Some(way);
+            at = self.maze.beside(at, way)?;
+        }
+        turns.push(self.cell_centre(to));
+        Some(turns)
     }
 
     /// Returns the first of four cells without a wall between them; `None` if there are none, and

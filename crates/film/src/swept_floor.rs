@@ -4,7 +4,8 @@ use alloc::collections::BTreeSet;
 
 use tolman_arena::course::Course;
 use tolman_arena::{Outing, is_clear, taut_way};
-use tolman_geom::Point;
+use tolman_geom::{Heading, Point, Pose};
+use tolman_robot::Body;
 
 /// Number of cells that a body's radius spans.
 const SPANNED: f64 = 3.0;
@@ -90,14 +91,20 @@ impl SweptFloor {
         taut_way(from, self.pitch, is_swept, left)
     }
 
-    /// Returns the corners of the shortest way from `a` to `b` on which the robot has room, without
-    /// its ends; empty if it goes straight, or there is none.
+    /// Returns the turns of the shortest way from `a` to `b` from cell to cell; empty if no wall is
+    /// between the two, or there is no way.
     pub(crate) fn shortest(&self, a: Point, b: Point) -> Vec<Point> {
-        let way = self.course.way_between(a, b, self.radius);
-        let mut way = way.unwrap_or_default();
-        way.pop();
-        way.drain(..1.min(way.len()));
-        way
+        let is_near_wall = || {
+            let radius = 0.5 * self.radius;
+            let is_floor = |at: Point| {
+                self.course
+                    .world
+                    .clear_for(&Body::Circle { radius }, Pose::new(at, Heading::EAST))
+            };
+            !is_clear(a, b, self.pitch, is_floor)
+        };
+        let way = is_near_wall().then(|| self.course.turns_between(a, b));
+        way.flatten().unwrap_or_default()
     }
 
     /// Returns the middle of the swept cell nearest to a position, if it is near enough. No wall
