@@ -1,3 +1,5 @@
+use alloc::boxed::Box;
+
 use crate::Robot;
 
 /// A mark that distinguishes a place from similar ones.
@@ -93,6 +95,12 @@ impl<R: Robot, F> Robot for Landmarked<R, F> {
 impl<R: Robot, F: Fn(&R) -> Option<Landmark>> SensesLandmarks for Landmarked<R, F> {
     fn landmark(&self) -> Option<Landmark> {
         (self.landmark)(&self.robot)
+    }
+}
+
+impl<R: SensesLandmarks + ?Sized> SensesLandmarks for Box<R> {
+    fn landmark(&self) -> Option<Landmark> {
+        (**self).landmark()
     }
 }
 

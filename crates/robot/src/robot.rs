@@ -1,3 +1,5 @@
+use alloc::boxed::Box;
+
 /// A robot that acts and senses in fixed time steps: the simulator's, a replayed one, or a
 /// driver's.
 ///
@@ -61,6 +63,20 @@ pub trait Standstill {
 /// Standing still does not count as a change.
 impl Standstill for f64 {
     const STOP: Self = 0.0;
+}
+
+impl<R: Robot + ?Sized> Robot for Box<R> {
+    type Command = R::Command;
+    type Sensing = R::Sensing;
+    type Error = R::Error;
+
+    fn sensing(&self) -> &R::Sensing {
+        (**self).sensing()
+    }
+
+    fn step(&mut self, command: &R::Command) -> Result<(), R::Error> {
+        (**self).step(command)
+    }
 }
 
 impl<R: Robot> Robot for &mut R {
