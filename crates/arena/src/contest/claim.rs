@@ -22,10 +22,16 @@ impl Claim {
     /// done means that it claims its map is that of the whole world.
     #[must_use]
     pub fn of(end: &TaskEnd, claims: bool, outing: &dyn Outing) -> Self {
+        Self::by(end, claims, outing.doubt().as_deref(), outing.certainty())
+    }
+
+    /// Returns the same verdict of a system with this doubt and this certainty.
+    #[must_use]
+    pub fn by(end: &TaskEnd, claims: bool, doubt: Option<&str>, certainty: Option<f64>) -> Self {
         match end {
             TaskEnd::GaveUp { .. } => Self::Wrong,
-            _ if outing.certainty().is_some_and(|certainty| certainty < EVEN) => Self::Wrong,
-            TaskEnd::Done if outing.doubt().is_some() => Self::Wrong,
+            _ if certainty.is_some_and(|certainty| certainty < EVEN) => Self::Wrong,
+            TaskEnd::Done if doubt.is_some() => Self::Wrong,
             TaskEnd::Done if claims => Self::Right,
             TaskEnd::Done | TaskEnd::OutOfTime => Self::Undecided,
         }

@@ -41,11 +41,28 @@ impl TrueVisits {
     /// Notes the result of an action, before which the robot was at `before`.
     pub fn note(&mut self, outing: &dyn Outing, before: Point) {
         let after = outing.path().last().map_or(before, |pose| pose.position);
-        match outing.visit_naming() {
+        let place = || believed(&outing.belief(), || outing.map());
+        self.add(
+            outing.visit_naming(),
+            outing.visit_count(),
+            place,
+            [before, after],
+        );
+    }
+
+    /// Adds the result of an action that led the robot from one point to another. The system has
+    /// named `count` visits since then; `place` is where it believes to be.
+    pub(super) fn add(
+        &mut self,
+        naming: VisitNaming,
+        count: usize,
+        place: impl FnOnce() -> Option<u32>,
+        [before, after]: [Point; 2],
+    ) {
+        match naming {
             // The path has them.
             VisitNaming::EachStep => {}
             VisitNaming::EachArrival => {
-                let count = outing.visit_count();
                 while self.arrivals.len() + 1 < count {
                     self.arrivals.push(before);
                 }
@@ -54,8 +71,7 @@ impl TrueVisits {
                 }
             }
             VisitNaming::Never => {
-                let place = believed(&outing.belief(), || outing.map());
-                self.beliefs.extend(place.map(|place| (place, after)));
+                self.beliefs.extend(place().map(|place| (place, after)));
             }
         }
     }
@@ -64,27 +80,44 @@ impl TrueVisits {
     /// that belongs to learning. O(visits · log places).
     #[must_use]
     pub fn evidence(self, outing: &dyn Outing, from: usize) -> Evidence {
-        let path = outing.path().iter().map(|pose| pose.position);
+        let path: Vec<Point> = outing.path().iter().map(|pose| pose.position).collect();
+        let named = (outing.visit_naming(), outing.visits());
+        self.of_map(
+            &outing.map(),
+            named,
+            &path,
+            from,
+            (Squares::of(outing.course()), Spots::of(outing.course())),
+        )
+    }
+
+    /// Returns the evidence of a map, whose system named visits so.
+    pub(super) fn of_map(
+        self,
+        map: &MapView,
+        (naming, visits): (VisitNaming, Vec<Option<u32>>),
+        path: &[Point],
+        from: usize,
+        (squares, spots): (Squares, Spots),
+    ) -> Evidence {
         let named = |points: Vec<Point>| {
-            let named = outing.visits().into_iter().zip(points);
+            let named = visits.into_iter().zip(points);
             named.filter_map(|(place, at)| Some((place?, at))).collect()
         };
-        let visits: Vec<(u32, Point)> = match outing.visit_naming() {
+        let visits: Vec<(u32, Point)> = match naming {
             VisitNaming::Never => self.beliefs,
             VisitNaming::EachArrival => named(self.arrivals),
-            VisitNaming::EachStep => named(path.clone().collect()),
+            VisitNaming::EachStep => named(path.to_vec()),
         };
-        let map = outing.map();
-        let squares = Squares::of(outing.course());
         let cells: Vec<PlaceVisit> = (visits.iter())
             .map(|(place, at)| PlaceVisit {
                 place: *place,
                 cell: squares.cell_at(*at),
             })
             .collect();
-        let spots = Spots::of(outing.course());
-        let (stands_for, purity) = stands_for(&map, &cells, squares, &spots);
-        let mut way: Vec<Cell> = path.skip(from).map(|at| squares.cell_at(at)).collect();
+        let (stands_for, purity) = stands_for(map, &cells, squares, &spots);
+        let driven = path.iter().skip(from);
+        let mut way: Vec<Cell> = driven.map(|at| squares.cell_at(*at)).collect();
         way.dedup();
         let mut founded: BTreeMap<u32, Point> = BTreeMap::new();
         for (place, at) in visits {

@@ -20,6 +20,7 @@ mod spots;
 mod stepped;
 mod true_graph;
 mod wanderers;
+mod watched;
 mod whereabouts;
 
 pub use claim::Claim;
@@ -33,6 +34,7 @@ pub use play::{
 pub use show::{FoundOut, ShowRecord, WayHome};
 pub use stepped::{SteppedContest, TaskRecord};
 pub use true_graph::{PlaceRule, TrueGraph, TrueWay};
+pub use watched::{WatchedError, WatchedRun};
 pub use whereabouts::PlaceVisit;
 
 pub(crate) use true_graph::is_straight;

@@ -1,6 +1,7 @@
 //! Runs foreign programs under supervision, such as a mouse or a brain in another language.
 //!
-//! A [`ForeignBrain`] drives a robot, in JSON lines. A [`ForeignProgram`] exchanges lines, within
+//! A [`ForeignBrain`] drives a robot, in JSON lines; a [`Service`] lets a system drive a robot that
+//! is another process. A [`ForeignProgram`] exchanges lines, within
 //! a [`Budget`] of time, bytes and lines. When it is dropped, the program and all processes that it
 //! started are killed, whatever group or session they moved to.
 //!
@@ -28,8 +29,12 @@ mod brain;
 #[cfg(target_os = "linux")]
 mod keeper;
 mod program;
+mod service;
+mod wire;
 
 pub use brain::{BrainError, ForeignBrain, Hello};
 #[cfg(target_os = "linux")]
 pub use keeper::keep;
 pub use program::{Budget, ForeignProgram, Launch, LaunchError, Left, Log, Overrun};
+pub use service::{Service, ServiceError};
+pub use wire::{NamedTask, WireError};

@@ -1,9 +1,11 @@
 use core::fmt;
 
 use tolman_maze::Maze;
+use tolman_robot::RobotMeasures;
+use tolman_systems::AnyOnRobot;
 
 use super::view_file::ViewFile;
-use super::{LearnedMap, MapText, RobotEntry, RobotKind, Setup};
+use super::{AnyRobot, LearnedMap, MapText, RobotEntry, RobotKind, Setup};
 use crate::cast::Agent;
 use crate::contest::PlaceRule;
 use crate::{BoxError, Outing};
@@ -153,6 +155,20 @@ pub trait SystemEntry: Sync {
     /// If maps, maze, start or settings do not fit.
     fn driver(&self, _maps: &[MapText], _setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
         Err(format!("{} does not drive by a map", self.name()).into())
+    }
+
+    /// Returns the system on a robot of these measures. All random
+    /// numbers follow from `seed`. The default implementation refuses.
+    ///
+    /// # Errors
+    /// If the system does not drive such robots, or the measures do not suit it.
+    fn for_robot(
+        &self,
+        _measures: &RobotMeasures,
+        _robot: AnyRobot,
+        _seed: u64,
+    ) -> Result<Box<dyn AnyOnRobot>, BoxError> {
+        Err("it does not drive a robot with a laser by its measures alone".into())
     }
 
     /// Returns the learned map in a file. The default implementation reads places and links, as

@@ -6,6 +6,7 @@
 //! both beside the [families](Family) of worlds. To add your own, [install](Registry::install) a
 //! longer list before anything is looked up.
 
+mod any_robot;
 mod entry;
 mod learned_map;
 mod list;
@@ -16,6 +17,7 @@ mod start;
 mod systems;
 mod view_file;
 
+pub use any_robot::{AnyRobot, RobotFailure};
 pub use entry::{DemoWorld, DrivesBy, LogMapper, SystemEntry, SystemFacts};
 pub use learned_map::{LearnedMap, MapText};
 pub use list::{Registry, slug};

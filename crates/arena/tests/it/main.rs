@@ -3,7 +3,9 @@
 
 extern crate alloc;
 
+mod any_size;
 mod better_map;
+mod brain_service;
 mod certificate;
 mod contest;
 mod cpm;

@@ -7,7 +7,8 @@ use tolman_maps::cpm::{
     CpMap, CpmError, Junction, JunctionId, Location, MapDoubt, Plan, Port, Sign,
 };
 use tolman_robot::{
-    Goal, Guess, MapLink, MapPlace, MapView, Mapper, Position, Standing, System, Task, VisitNaming,
+    Fitted, Goal, Guess, MapLink, MapPlace, MapView, Mapper, Position, RobotMeasures, Standing,
+    System, Task, VisitNaming,
 };
 
 use super::common_patterns::CommonPatterns;
@@ -18,11 +19,14 @@ use super::failure::{CpmFailure, CpmResult};
 use super::layer3::{CpmObservation, Layer3};
 use super::mode::Mode;
 use super::relocalization::Relocalization;
+use super::ring_as_epuck::{RingAsEpuck, RingMeasures};
 use super::robot::CpmRobot;
 use super::trail::Trail;
 use super::walker::{RestingWalker, Walker};
 use super::walker_config::WalkerConfig;
 use super::whereabouts::Approach;
+use crate::on_robot::{CORRIDOR_WIDTH, fitted, needed};
+use crate::{ForRobotError, LaserRobot, OnRobot};
 
 /// CPM as a system: it learns a map of any maze with any [`CpmRobot`], and goes to goals.
 ///
@@ -78,6 +82,9 @@ const APART: f64 = 0.5;
 /// Number of walks in a row that contradict a map before it is given up.
 const MOST_DOUBTFUL: u32 = 50;
 
+/// Error to which a robot controls a turn, rad.
+const TURN_TOLERANCE: f64 = 0.01;
+
 /// Maximum number of walks that check a map, as a multiple of its fragments.
 const MOST_CHECKS: u32 = 3;
 
@@ -127,6 +134,31 @@ impl Cpm {
             novelty: mode.novelty(),
             ..Self::new(walker, CommonPatterns::none()?, config, seed)
         })
+    }
+
+    /// Returns a system without observations on a robot of these measures. It learns its patterns
+    /// on the way. All random numbers follow from `seed`.
+    ///
+    /// # Errors
+    /// If the measures contradict each other, or there is no odometry.
+    pub fn for_robot<R: LaserRobot>(
+        measures: &RobotMeasures,
+        robot: R,
+        seed: u64,
+    ) -> Result<OnRobot<RingAsEpuck<Fitted<R>>, Self>, ForRobotError> {
+        needed(measures.odometry_error, "odometry_error")?;
+        let robot = fitted(measures, robot, CORRIDOR_WIDTH)?;
+        let (made_for, metre) = (robot.made_for(), robot.metre());
+        let ring = RingMeasures {
+            corridor_width: made_for.corridor_width,
+            body_radius: 0.5 * measures.diameter / metre,
+            turn_per_step: made_for.turn_per_step,
+            translate_per_step: made_for.translate_per_step,
+            step_us: made_for.step_us,
+            turn_tolerance: TURN_TOLERANCE,
+        };
+        let system = Self::unlearned(ring.walker_config(), CpmConfig::robust(), seed)?;
+        Ok(OnRobot::new(RingAsEpuck::new(robot, ring)?, system, metre))
     }
 
     /// Returns a robot at an unknown place of one of several maps in these `patterns`. It first

@@ -3,17 +3,20 @@ use core::error::Error;
 use thiserror::Error as ThisError;
 use tolman_geom::OutOfRange;
 use tolman_maps::diktiometry::{
-    Config, ObservedMove, ObservedMoveError, Observer, PlaceBelief, PlaceId, StartError,
+    Apart, Config, JournalLength, ObservedMove, ObservedMoveError, Observer, PlaceBelief, PlaceId,
+    StartError, WorldKind,
 };
 use tolman_robot::{
-    Compass, Guess, Landmark, MapView, Mapper, Position, Ranges, Rolls, SensesLandmarks, Standing,
-    System, Task, TurnTranslate, VisitNaming,
+    Compass, Fitted, Guess, Landmark, MapView, Mapper, Position, Ranges, RobotMeasures, Rolls,
+    SensesLandmarks, Standing, System, Task, TurnTranslate, VisitNaming,
 };
 
 use super::{
-    Eye, Guide, LandmarkSpot, MapError, MappedMove, RouteFinder, RoutineConfig, RoutineError,
-    Rover, Surveyor, sought,
+    Eye, Guide, LandmarkSpot, LaserEye, MapError, MappedMove, RouteFinder, RoutineConfig,
+    RoutineError, Rover, Surveyor, aligned_signatures, sought,
 };
+use crate::on_robot::{fitted, needed};
+use crate::{ForRobotError, LaserRobot, OnRobot};
 
 /// The diktiometry as a system: it drives a robot from place to place, maps what it finds and goes
 /// to goals.
@@ -105,6 +108,15 @@ impl DiktiometerConfig {
     }
 }
 
+/// Width of the corridors of its office, m.
+const CORRIDOR_WIDTH: f64 = 1.2;
+
+/// Largest distance from the middle of a place at which a routine stops there, m.
+const PLACE_RADIUS: f64 = 0.1;
+
+/// Number of columns to which the beams of a laser are averaged.
+const COLUMNS: u32 = 24;
+
 /// Reason why a [`Diktiometer`] cannot go on.
 #[derive(Debug, ThisError)]
 #[non_exhaustive]
@@ -127,6 +139,47 @@ pub enum RefusedMove {
     /// The observer refuses the move.
     #[error(transparent)]
     Step(#[from] ObservedMoveError),
+}
+
+impl Diktiometer<LaserEye> {
+    /// Returns a system without a map on a robot of these measures, whose corridors all have the
+    /// same width and distance. It keeps a journal of all its moves, and merges places by their
+    /// looks and by turns, too; `paper` leaves both out.
+    ///
+    /// # Errors
+    /// If the measures contradict each other, or there is no compass, no odometry or no
+    /// `corridor_spacing`.
+    pub fn for_robot<R: LaserRobot>(
+        measures: &RobotMeasures,
+        robot: R,
+        paper: bool,
+        seed: u64,
+    ) -> Result<OnRobot<Fitted<R>, Self>, ForRobotError> {
+        let robot = fitted(measures, robot, CORRIDOR_WIDTH)?;
+        let made_for = robot.made_for();
+        let spacing = needed(measures.corridor_spacing, "corridor_spacing")?;
+        let mut routines = RoutineConfig::new(
+            made_for.corridor_width,
+            made_for.turn_per_step,
+            made_for.translate_per_step,
+        );
+        // A bound is twice the error that odometry makes on the whole.
+        routines.odometry_share = 2.0 * needed(measures.odometry_error, "odometry_error")?;
+        routines.compass_bound = needed(measures.compass_error, "compass_error")?;
+        let metre = robot.metre();
+        let mut mapper = Config::new(Config::corridor_actions(), spacing / metre);
+        mapper.place_radius = PLACE_RADIUS;
+        mapper.apart = Apart::Side;
+        mapper.world = WorldKind::Static;
+        mapper.percepts = aligned_signatures(1, COLUMNS as usize);
+        if !paper {
+            mapper.journal = JournalLength::All;
+            mapper.restructuring.merge_by_looks_and_turns();
+        }
+        let config = DiktiometerConfig::paper(routines, mapper);
+        let system = Self::new(config, LaserEye { columns: COLUMNS }, seed);
+        Ok(OnRobot::new(robot, system, metre))
+    }
 }
 
 impl<E> Diktiometer<E> {

@@ -1,13 +1,16 @@
 use alloc::sync::Arc;
 
 use rand::Rng;
-use tolman_control::RingError;
+use tolman_control::{RingError, Stack};
 use tolman_maps::scan_map::ScanChart;
 use tolman_maze::Direction;
-use tolman_robot::{Guess, MapView, Mapper, Ring, Standing, Task, VisitNaming};
+use tolman_robot::{
+    Fitted, Guess, MadeFor, MapView, Mapper, Ring, RobotMeasures, Standing, Task, VisitNaming,
+};
 
 use super::better::{BetterConfig, BetterExplorer, BetterMap, BetterNavigator};
-use crate::{Brain, Doing, RolledStep};
+use crate::on_robot::{fitted, needed};
+use crate::{Actor, Brain, Doing, ForRobotError, LaserRobot, OnRobot, RolledStep};
 
 /// The better MSLST as a whole: it explores, makes its map ready, and then navigates.
 ///
@@ -37,6 +40,28 @@ impl BetterMslst {
             ring,
             phase: Phase::Exploration(Box::new(BetterExplorer::new(config))),
         }
+    }
+
+    /// Returns a system without knowledge on a robot of these measures. All random numbers follow
+    /// from `seed`.
+    ///
+    /// # Errors
+    /// If the measures contradict each other, or there is no compass or no odometry.
+    pub fn for_robot<R: LaserRobot>(
+        measures: &RobotMeasures,
+        robot: R,
+        seed: u64,
+    ) -> Result<OnRobot<Fitted<R>, Actor<Self>>, ForRobotError> {
+        needed(measures.compass_error, "compass_error")?;
+        let mut config = BetterConfig::pioneer();
+        config.odometry_sd = needed(measures.odometry_error, "odometry_error")?;
+        config.check()?;
+        let robot = fitted(measures, robot, config.corridor_width)?;
+        let MadeFor { ring, .. } = robot.made_for();
+        let layers = Stack::paper(ring, config.diameter, config.corridor_width)?;
+        let metre = robot.metre();
+        let system = Actor::seeded(Self::new(config, ring), layers, seed);
+        Ok(OnRobot::new(robot, system, metre))
     }
 
     /// Returns the chart of the map so far. O(map).

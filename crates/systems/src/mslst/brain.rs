@@ -2,11 +2,15 @@ use alloc::sync::Arc;
 use core::convert::Infallible;
 
 use rand::Rng;
+use tolman_control::Stack;
 use tolman_maze::Direction;
-use tolman_robot::{Guess, MapView, Mapper, Standing, Task};
+use tolman_robot::{Fitted, Guess, MapView, Mapper, RobotMeasures, Standing, Task};
 
-use super::{MslstConfig, MslstMap, Navigator, ScanRecorder, States, StatesError, Topology};
-use crate::{Brain, Doing, TimeStep};
+use super::{
+    MslstConfig, MslstMap, Navigator, ROBOT_UNIT, ScanRecorder, States, StatesError, Topology,
+};
+use crate::on_robot::{CORRIDOR_WIDTH, fitted, needed};
+use crate::{Actor, Brain, Doing, ForRobotError, LaserRobot, OnRobot, TimeStep};
 
 /// MSLST as a whole: it records scans (Phase I), makes states of them and maps their topology
 /// (Phase II), and then navigates (Phase III).
@@ -35,6 +39,24 @@ impl Mslst {
             config,
             phase: Phase::Scans(ScanRecorder::new(config.scan_steps)),
         }
+    }
+
+    /// Returns a brain without knowledge on a robot of these measures, which explores as in the
+    /// paper's Large maze. All random numbers follow from `seed`.
+    ///
+    /// # Errors
+    /// If the measures contradict each other, or there is no compass.
+    pub fn for_robot<R: LaserRobot>(
+        measures: &RobotMeasures,
+        robot: R,
+        seed: u64,
+    ) -> Result<OnRobot<Fitted<R>, Actor<Self>>, ForRobotError> {
+        needed(measures.compass_error, "compass_error")?;
+        let robot = fitted(measures, robot, CORRIDOR_WIDTH)?;
+        let layers = Stack::paper(robot.made_for().ring, ROBOT_UNIT, CORRIDOR_WIDTH)?;
+        let metre = robot.metre();
+        let system = Actor::seeded(Self::new(MslstConfig::large(50.0)), layers, seed);
+        Ok(OnRobot::new(robot, system, metre))
     }
 
     /// Returns a brain with a learned `map`.

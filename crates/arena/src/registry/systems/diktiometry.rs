@@ -9,12 +9,12 @@ use tolman_maps::diktiometry::{
     Action, Config, DecidingWalk, JournalLength, Link, Observer, OpenPair, PlaceId,
 };
 use tolman_maze::Direction;
-use tolman_robot::{Landmark, MapView, Mapper, Task};
+use tolman_robot::{Landmark, MapView, Mapper, RobotMeasures, Task};
 use tolman_sim::Bounds;
 use tolman_systems::diktiometry::{
     Diktiometer, DiktiometerConfig, ExploreUntil, LandmarkSpot, LaserEye,
 };
-use tolman_systems::stream;
+use tolman_systems::{AnyOnRobot, stream};
 
 use crate::contest::PlaceRule;
 use crate::course::{Course, Terrain};
@@ -25,8 +25,8 @@ use crate::drawing::diktiometry::{PlaceMark, map_over_world, place_marks};
 use crate::episode::START_STREAM;
 use crate::registry::view_file::ViewFile;
 use crate::registry::{
-    DrivesBy, LearnedMap, LogMapper, MapText, RobotEntry, RobotKind, Setup, Start, SystemEntry,
-    SystemFacts, slug,
+    AnyRobot, DrivesBy, LearnedMap, LogMapper, MapText, RobotEntry, RobotKind, Setup, Start,
+    SystemEntry, SystemFacts, slug,
 };
 use crate::{BoxError, Founding, Outing, Sent};
 
@@ -182,6 +182,20 @@ impl SystemEntry for DiktiometryEntry {
         Ok(Box::new(
             sent.laid_at(Pose::new(surveyed.start, Heading::EAST)),
         ))
+    }
+
+    fn for_robot(
+        &self,
+        measures: &RobotMeasures,
+        robot: AnyRobot,
+        seed: u64,
+    ) -> Result<Box<dyn AnyOnRobot>, BoxError> {
+        Ok(Box::new(Diktiometer::for_robot(
+            measures,
+            robot,
+            self.is_paper,
+            seed,
+        )?))
     }
 
     fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, BoxError> {

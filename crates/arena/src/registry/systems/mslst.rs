@@ -2,14 +2,16 @@ use alloc::sync::Arc;
 
 use serde_json::{Value, json};
 use tolman_draw::Drawing;
-use tolman_robot::MapView;
-use tolman_systems::Actor;
+use tolman_robot::{MapView, RobotMeasures};
 use tolman_systems::mslst::{self, GrowthRecord, Learned, MapFile, MslstConfig};
+use tolman_systems::{Actor, AnyOnRobot};
 
 use crate::course::{Course, Terrain};
 use crate::drawing::mslst::whole_graph_over_maze;
 use crate::pioneer::body;
-use crate::registry::{DemoWorld, DrivesBy, LearnedMap, MapText, Setup, SystemEntry, SystemFacts};
+use crate::registry::{
+    AnyRobot, DemoWorld, DrivesBy, LearnedMap, MapText, Setup, SystemEntry, SystemFacts,
+};
 use crate::{BoxError, Outing, Sent};
 
 /// [`mslst`] on a laser robot.
@@ -111,6 +113,15 @@ impl SystemEntry for MslstEntry {
         let sent = Sent::new(course, robot, steps, actor)
             .lying(move |_, _| (0..).zip(sites.iter().copied()).collect());
         Ok(Box::new(sent))
+    }
+
+    fn for_robot(
+        &self,
+        measures: &RobotMeasures,
+        robot: AnyRobot,
+        seed: u64,
+    ) -> Result<Box<dyn AnyOnRobot>, BoxError> {
+        Ok(Box::new(mslst::Mslst::for_robot(measures, robot, seed)?))
     }
 
     fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, BoxError> {

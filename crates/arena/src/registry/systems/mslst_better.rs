@@ -6,10 +6,10 @@ use tolman_draw::Drawing;
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::scan_map::{CorridorMap, ScanChart, ScanPlace};
 use tolman_maze::Direction;
-use tolman_robot::{Landmark, MapView};
-use tolman_systems::Actor;
+use tolman_robot::{Landmark, MapView, RobotMeasures};
 use tolman_systems::mslst::BetterMslst;
 use tolman_systems::mslst::better::{BetterConfig, BetterMap, BetterMapFile, BetterNavigator};
+use tolman_systems::{Actor, AnyOnRobot};
 
 use crate::course::Terrain;
 use crate::drawing::places_over_world;
@@ -18,7 +18,8 @@ use crate::mslst::better_config;
 use crate::outing::moved;
 use crate::pioneer::body;
 use crate::registry::{
-    DemoWorld, DrivesBy, LearnedMap, MapText, RobotEntry, Setup, SystemEntry, SystemFacts, because,
+    AnyRobot, DemoWorld, DrivesBy, LearnedMap, MapText, RobotEntry, Setup, SystemEntry,
+    SystemFacts, because,
 };
 use crate::{BoxError, Founding, Outing, Sent};
 
@@ -89,6 +90,15 @@ impl SystemEntry for MslstBetterEntry {
             Some(laid) => sent.laid_at(laid.world_from_map),
             None => sent,
         }))
+    }
+
+    fn for_robot(
+        &self,
+        measures: &RobotMeasures,
+        robot: AnyRobot,
+        seed: u64,
+    ) -> Result<Box<dyn AnyOnRobot>, BoxError> {
+        Ok(Box::new(BetterMslst::for_robot(measures, robot, seed)?))
     }
 
     fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, BoxError> {
