@@ -6,6 +6,7 @@
 mod arena;
 mod audit;
 mod bar;
+mod brain;
 mod called;
 mod completions;
 mod demo;
@@ -17,6 +18,7 @@ mod former;
 mod ground;
 mod host;
 mod interrupt;
+mod judge;
 mod keep;
 mod kind;
 mod learn;
@@ -108,6 +110,8 @@ enum Verb {
     Race(race::Arguments),
     MmsHost(mms_host::Arguments),
     Host(host::Arguments),
+    Brain(brain::Arguments),
+    Judge(judge::Arguments),
     Experiment(experiment::Arguments),
     Trial(trial::Arguments),
     Merge(merge::Arguments),
@@ -278,6 +282,8 @@ impl Verb {
             Self::Mouse(arguments) => mouse::carry_out(&arguments, out),
             Self::Race(arguments) => race::carry_out(&arguments, out),
             Self::Host(arguments) => host::carry_out(app, &arguments, out),
+            Self::Brain(arguments) => brain::carry_out(app, &arguments),
+            Self::Judge(arguments) => judge::carry_out(app, &arguments, out),
             Self::MmsHost(arguments) => mms_host::carry_out(&arguments, out),
             Self::Experiment(arguments) => experiment::carry_out(app, &arguments, out),
             Self::Trial(arguments) => trial::carry_out(app, &arguments, out),

@@ -287,6 +287,7 @@ mod tests {
         ("arena", "mazes"),
         ("arena --maze other", "maze_files"),
         ("audit other", "graph"),
+        ("brain --system mslst --robot other", "robot"),
         ("demo --maze other", "maze_file"),
         ("demo other", "maze"),
         ("drive --map other --maze other", "map maze_file from"),
@@ -296,6 +297,7 @@ mod tests {
         ("host --maze other -- true", "maze_file"),
         ("host other -- true", "maze"),
         ("host --world other -- true", "world"),
+        ("judge other --system mslst --maze other", "run maze"),
         (
             "learn --system cpm --maze other --out new",
             "maze_file from",

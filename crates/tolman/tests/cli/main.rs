@@ -9,6 +9,8 @@ mod arena;
 mod audit;
 #[cfg(target_os = "linux")]
 mod bad_mice;
+#[cfg(unix)]
+mod brain;
 mod cpm;
 mod demo;
 mod experiment;
