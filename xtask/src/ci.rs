@@ -21,8 +21,8 @@ use Job::{Golden, Static, Tests, Thorough};
 
 use crate::workspace::{self, built, cargo, installed, succeed};
 use crate::{
-    board, docs, fuzz, golden, layers, mazes, mutants, packages, playground, prose, python, rerun,
-    site,
+    board, docs, fuzz, golden, layers, mazes, mujoco, mutants, packages, playground, prose, python,
+    rerun, site,
 };
 
 /// Outcome of a step that did not fail.
@@ -112,6 +112,7 @@ const STEPS: &[Step] = &[
     ("golden, all", Thorough, || passed(golden::run(&[], false))),
     ("pages", Thorough, || with_browser(all_pages)),
     ("python", Thorough, python::check),
+    ("mujoco", Thorough, mujoco::check),
     ("rerun", Thorough, rerun::check),
     ("playground", Thorough, playground::check),
     ("site", Thorough, site::check),

@@ -16,6 +16,7 @@ mod fuzz;
 mod golden;
 mod layers;
 mod mazes;
+mod mujoco;
 mod mutants;
 mod packages;
 mod playground;
@@ -110,6 +111,9 @@ enum Verb {
     },
     /// Builds the Python module, installs it into target/python and runs its tests
     Python,
+    /// Lets a system learn mazes on a robot in MuJoCo, a simulator of others, and go home from
+    /// elsewhere. Installs MuJoCo into target/mujoco
+    Mujoco(mujoco::Choice),
     /// Tests the package that writes replays for Rerun
     Rerun,
     /// Builds the playground, a page on which robots learn a maze that the reader draws. Needs a
@@ -151,6 +155,7 @@ fn main() -> ExitCode {
         } => fuzz::run(seconds, seed, &targets),
         Verb::Mutants { shard, packages } => alone(mutants::check(shard, &packages)),
         Verb::Python => alone(python::check()),
+        Verb::Mujoco(choice) => alone(mujoco::run(&choice)),
         Verb::Rerun => alone(rerun::check()),
         Verb::Playground { out } => playground::run(out.as_deref()),
         Verb::Site { out } => site::run(out.as_deref()),

@@ -34,7 +34,7 @@ pub(crate) fn check() -> Result<Outcome> {
         return Ok(Outcome::Missing(why.to_owned()));
     };
     let folder = target_folder()?.join("python");
-    let environment = Environment { folder: &folder };
+    let environment = Environment { folder };
     if !environment.program("maturin").exists() && !environment.make(&system)? {
         let why = "the packages it is built and tested with cannot be installed";
         return Ok(Outcome::Missing(why.to_owned()));
@@ -57,7 +57,7 @@ pub(crate) fn check() -> Result<Outcome> {
 }
 
 /// Returns the first Python that can make an environment.
-fn system_python() -> Option<PathBuf> {
+pub(crate) fn system_python() -> Option<PathBuf> {
     let named = env::var_os("PYTHON").map(PathBuf::from);
     let usual = ["python3", "python"].map(PathBuf::from);
     let mut all = named.into_iter().chain(usual);
@@ -72,11 +72,11 @@ fn system_python() -> Option<PathBuf> {
 }
 
 /// A Python with the packages that are needed, apart from those of the system.
-struct Environment<'a> {
-    folder: &'a Path,
+pub(crate) struct Environment {
+    pub(crate) folder: PathBuf,
 }
 
-impl Environment<'_> {
+impl Environment {
     fn program(&self, name: &str) -> PathBuf {
         let (programs, suffix) = match cfg!(windows) {
             true => ("Scripts", ".exe"),
@@ -85,14 +85,13 @@ impl Environment<'_> {
         self.folder.join(programs).join(format!("{name}{suffix}"))
     }
 
-    fn python(&self) -> Command {
+    pub(crate) fn python(&self) -> Command {
         Command::new(self.program("python"))
     }
 
     /// Makes the environment again, and returns whether all required packages could be installed.
     fn make(&self, system: &Path) -> Result<bool> {
-        let mut make = Command::new(system);
-        succeed(make.args(["-m", "venv", "--clear"]).arg(self.folder))?;
+        self.clear(system)?;
         if self.install(WITH_MDP).is_err() {
             eprintln!("MDP cannot be installed for this Python: it is not compared with");
             if self.install(WITHOUT_MDP).is_err() {
@@ -103,7 +102,13 @@ impl Environment<'_> {
         Ok(self.install(PACKAGES).is_ok())
     }
 
-    fn install(&self, packages: &[&str]) -> Result<()> {
+    /// Makes the environment again, without packages.
+    pub(crate) fn clear(&self, system: &Path) -> Result<()> {
+        let mut make = Command::new(system);
+        succeed(make.args(["-m", "venv", "--clear"]).arg(&self.folder))
+    }
+
+    pub(crate) fn install(&self, packages: &[&str]) -> Result<()> {
         let mut install = self.python();
         install.args([
             "-m",
