@@ -136,8 +136,8 @@ fn lost_beams_are_no_opening_and_wide_ones_are() {
 fn lengths_come_in_and_go_out_in_their_own_metres() {
     let mut robot = looking(LaserMeasures::all_round(72, 0.05, 3.5), &[]);
     let sensed = robot.sensing();
-    assert_eq!(sensed.odometry.unwrap().distance, 0.2);
-    assert_eq!(sensed.odometry.unwrap().turn, 0.2);
+    let odometry = sensed.odometry.unwrap();
+    assert!((odometry.distance - 0.2).abs() < 1e-12 && (odometry.turn - 0.2).abs() < 1e-12);
     assert_eq!(sensed.compass, Some(Heading::NORTH));
     let half = TurnTranslate {
         turn: 0.5,
