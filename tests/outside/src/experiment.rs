@@ -1,5 +1,6 @@
 //! An experiment: how long a wanderer takes to the goal of a maze of teeth.
 
+use crate::world::TEETH;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_arena::cast::{Agent, Cast};
@@ -9,8 +10,6 @@ use tolman_arena::pioneer::{body, calibrated};
 use tolman_experiment::{
     BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Record, Row, Table, record,
 };
-
-use crate::world::TEETH;
 
 pub const ENTRY: Entry = Entry {
     name: "combs",
