@@ -67,16 +67,16 @@ pub trait AnyOnRobot {
     /// Returns when the system names a place of [`visits`](Self::visits).
     fn visit_naming(&self) -> VisitNaming;
 
-    /// Returns the places that it visited, in order, as [`Mapper::visits`] does.
+    /// Returns the places that it visited, in order, as [`tolman_robot::Mapper::visits`] does.
     fn visits(&self) -> Vec<Option<u32>>;
 
     /// Returns the number of visits.
     fn visit_count(&self) -> usize;
 
-    /// Returns why the map may be wrong or unfinished, as [`Mapper::doubt`] does.
+    /// Returns why the map may be wrong or unfinished, as [`tolman_robot::Mapper::doubt`] does.
     fn doubt(&self) -> Option<String>;
 
-    /// Returns the probability that the map is right, as [`Mapper::certainty`] does.
+    /// Returns the probability that the map is right, as [`tolman_robot::Mapper::certainty`] does.
     fn certainty(&self) -> Option<f64>;
 
     /// Returns the system's situation in a few words.
