@@ -32,9 +32,9 @@ Conditions: as-made, wheels-1, wheels-2, wheels-5 (each wheel is off by a consta
 constant-odometry, fresh-odometry, doors, kidnapping, drop-outs. docs/arena.md explains them.
 
 Examples:
-  tolman arena --system cpm-better --family office --worlds 4
+  tolman arena --system cpm-better --family office
   tolman arena --system cpm-better --family ladder --condition wheels-5
-  tolman arena mazes/forks.maze mazes/cpm-1.maze --system all
+  tolman arena mazes/forks.maze --system all
   tolman arena --system mslst --cost
   tolman arena --system micromouse --own-verdict --worlds 3
   tolman arena --system diktiometry-better --robot laser-pioneer --worlds 1")]

@@ -31,8 +31,8 @@ Examples:
   tolman drive --map map.json --map other.json --maze mazes/cpm-3.maze
   tolman learn --system cpm-better --robot laser-pioneer --world mazes/worlds/corridors.json --out corridors-map.json
   tolman drive --map corridors-map.json --world mazes/worlds/corridors.json --seed 2
-  tolman learn --system gng-slam-better --world mazes/worlds/pitch.json --out pitch-map.json
-  tolman drive --map pitch-map.json --world mazes/worlds/pitch.json --seed 3 --replay drive.html
+  tolman learn --system gng-slam-better --world mazes/worlds/pitch.json --out pitch-map.json --replay learned.html
+  tolman drive --map pitch-map.json --world mazes/worlds/pitch.json --seed 7 --replay drive.html
 
 Ctrl-C saves the drive; --from FILE continues it, bit for bit as if it had not been interrupted.")]
 pub(super) struct Arguments {

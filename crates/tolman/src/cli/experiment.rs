@@ -31,7 +31,7 @@ Examples:
   tolman experiment baselines --quick --jobs 1 --out two
   tolman experiment --compare one two
   tolman experiment baselines --quick --verify one
-  tolman experiment baselines --maze mazes/grid/braided-2.txt --maze mazes/j.maze --runs 20
+  tolman experiment baselines --maze mazes/grid/braided-2.txt --maze mazes/j.maze --runs 5
   tolman experiment diktiometry --table 3b --runs 1
   tolman experiment baselines --replay '2 (J)' Avoid 137")]
 pub(super) struct Arguments {

@@ -36,7 +36,7 @@ then the same, bit for bit, as without the interruption.
 Examples:
   tolman learn --system mslst --preset j --maze mazes/j.maze --out j-map.json
   tolman learn --system cpm-better --maze mazes/cpm-3.maze --out map.json --replay learned.html
-  tolman learn --system gng-slam-better --world mazes/worlds/pitch.json --out pitch-map.json
+  tolman learn --system gng-slam-better --world mazes/worlds/pitch.json --out pitch-map.json --replay learned.html
   tolman learn --system diktiometry-better --maze mazes/j-long.maze --set moves=300 --out j-survey.json
   tolman learn --system diktiometry-better --maze mazes/j-long.maze --from j-survey.json --out j-survey.json
   tolman learn --system cpm-better --robot laser-pioneer --world mazes/worlds/corridors.json --out corridors-map.json")]
