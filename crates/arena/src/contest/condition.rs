@@ -1,4 +1,5 @@
 use alloc::sync::Arc;
+use core::f64::consts::PI;
 
 use rand::{Rng, RngExt};
 use tolman_control::unit_of;
@@ -35,13 +36,16 @@ pub enum Condition {
     Kidnapping,
     /// Readings of all sensors are missing at random.
     DropOuts,
+    /// Ranges, odometry and heading are as good as those of real robots. The heading is that of a
+    /// gyro, which drifts.
+    RealSensors,
     /// Motors, wheels, compass and odometry have no errors, as on no real robot. A map learned in
     /// this way can serve as the true one. Not among [`ALL`](Self::ALL).
     Flawless,
 }
 
 /// Maximum constant error of a compass, rad.
-const COMPASS: f64 = 5.0 * core::f64::consts::PI / 180.0;
+const COMPASS: f64 = 5.0 * PI / 180.0;
 
 /// Maximum error of odometry, as a share.
 const ODOMETRY: f64 = 0.1;
@@ -49,12 +53,22 @@ const ODOMETRY: f64 = 0.1;
 /// Probability that a reading is missing.
 const MISSING: f64 = 0.02;
 
+/// Errors of real sensors. Standard deviation of a range, m.
+const RANGE_SD: f64 = 0.01;
+/// Probability that a beam gives nothing.
+const LOST: f64 = 0.005;
+/// Constant share by which odometry is off at most: of the distance, and of the turn.
+const ROLLED: f64 = 0.01;
+const TURNED: f64 = 0.03;
+/// Drift of the gyro, rad/min.
+const DRIFT: f64 = PI / 180.0;
+
 const WHEEL_STREAM: u64 = 32;
 const DOOR_STREAM: u64 = 33;
 
 impl Condition {
     /// All conditions, the milder ones first.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::AsMade,
         Self::Wheels(1),
         Self::Wheels(2),
@@ -65,6 +79,7 @@ impl Condition {
         Self::Doors,
         Self::Kidnapping,
         Self::DropOuts,
+        Self::RealSensors,
     ];
 
     /// Returns the name in tables.
@@ -79,6 +94,7 @@ impl Condition {
             Self::Doors => "doors",
             Self::Kidnapping => "kidnapping",
             Self::DropOuts => "drop-outs",
+            Self::RealSensors => "real sensors",
             Self::Flawless => "flawless",
         };
         name.to_owned()
@@ -100,7 +116,11 @@ impl Condition {
             Self::FreshOdometry => robot.wheels = vec![Fault::Slip { share: ODOMETRY }],
             Self::DropOuts => robot.proximity.push(MISSES),
             Self::Flawless => robot.wheels.clear(),
-            Self::AsMade | Self::CompassOffset | Self::Doors | Self::Kidnapping => {}
+            Self::AsMade
+            | Self::CompassOffset
+            | Self::Doors
+            | Self::Kidnapping
+            | Self::RealSensors => {}
         }
         robot
     }
@@ -127,6 +147,21 @@ impl Condition {
                 faults.scan.push(MISSES);
                 faults.compass.push(MISSES);
                 faults.odometry_distance.push(MISSES);
+            }
+            Self::RealSensors => {
+                robot.scan_noise = Gaussian::absolute(RANGE_SD);
+                let max_range = robot.ring.max_range;
+                faults.scan.push(Fault::Outliers {
+                    probability: LOST,
+                    low: max_range,
+                    high: max_range,
+                });
+                faults.odometry_distance = vec![constant(ROLLED)];
+                faults.odometry_turn = vec![constant(TURNED)];
+                let steps_per_minute = 60e6 / robot.step_us as f64;
+                faults.compass.push(Fault::Drift {
+                    rate: DRIFT / steps_per_minute,
+                });
             }
             Self::Flawless => {
                 robot = without_noise(&robot);
@@ -157,7 +192,11 @@ impl Condition {
                 robot.wheel_noise = Gaussian::NONE;
                 robot.faults = Pioneer2dxFaults::default();
             }
-            Self::AsMade | Self::CompassOffset | Self::Doors | Self::Kidnapping => {}
+            Self::AsMade
+            | Self::CompassOffset
+            | Self::Doors
+            | Self::Kidnapping
+            | Self::RealSensors => {}
         }
         robot
     }

@@ -44,6 +44,12 @@ pub enum Fault {
         /// Number of readings for which one draw holds, at least 1.
         steps: u32,
     },
+    /// A gyro that drifts: after n readings the value is `rate` · n too large, or too small, drawn
+    /// once.
+    Drift {
+        /// Growth of the error with every reading, in the value's own unit.
+        rate: f64,
+    },
     /// Wheels that slip: the value times a factor uniform in 1 ± `share`, as Webots has it.
     Slip {
         /// The largest share gained or lost.
@@ -117,6 +123,7 @@ impl Fault {
                 ("share", share, size),
                 ("steps", f64::from(steps), count),
             ],
+            Self::Drift { rate } => vec![("rate", rate, size)],
             Self::Slip { share } => vec![("share", share, size)],
             Self::Quantization { step } => {
                 vec![("step", step, (Included(f64::MIN_POSITIVE), Unbounded))]
@@ -183,6 +190,11 @@ impl Fault {
                 if 0.5 * (b + 1.0) < probability {
                     value.change(|number| number * (1.0 + share.copysign(a)));
                 }
+            }
+            Self::Drift { rate } => {
+                let [sign, _] = past.drawn(u32::MAX, draws);
+                let error = rate.copysign(sign) * f64::from(u32::MAX - past.steps_left);
+                value.change(|number| number + error);
             }
             Self::Slip { share } => {
                 value.change(|number| number * (1.0 + share * (2.0 * draws.uniform() - 1.0)));

@@ -34,6 +34,12 @@ fn each_fault_does_what_it_says() {
     assert_eq!(biased, [Some(2.5), Some(4.5)]);
     let rounded = series(Fault::Quantization { step: 2.0 }, 4);
     assert_eq!(rounded, [Some(2.0), Some(2.0), Some(4.0), Some(4.0)]);
+    let drifting = series(Fault::Drift { rate: 0.25 }, 3);
+    let (up, down) = ([1.25, 2.5, 3.75], [0.75, 1.5, 2.25]);
+    assert!(
+        [up, down].iter().any(|known| drifting == known.map(Some)),
+        "{drifting:?}"
+    );
     let late = series(Fault::Delay { steps: 2 }, 4);
     assert_eq!(late, [None, None, Some(1.0), Some(2.0)]);
     let stuck = series(

@@ -29,7 +29,7 @@ type Contestant = &'static dyn SystemEntry;
 `tolman maze generate --list` names the families. `tolman experiment arena` fills whole tables.
 
 Conditions: as-made, wheels-1, wheels-2, wheels-5 (each wheel is off by a constant of up to this many percent), compass-offset,
-constant-odometry, fresh-odometry, doors, kidnapping, drop-outs. docs/arena.md explains them.
+constant-odometry, fresh-odometry, doors, kidnapping, drop-outs, real-sensors. docs/arena.md explains them.
 
 Examples:
   tolman arena --system cpm-better --family office
