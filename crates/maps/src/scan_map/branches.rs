@@ -35,9 +35,6 @@ pub(super) struct Branch {
 /// Maximum length of a spur that leads into a corner, in clearances where it begins. In mazes of
 /// ten families corners had at most 1.23, and dead ends of one square mostly 1.41 to 2.
 const SPUR: f64 = 1.3;
-/// Maximum distance of knots that are one place, as a share of the sum of their clearances. Two
-/// junctions side by side are at least half of it apart.
-const SAME: f64 = 0.35;
 
 impl Branch {
     fn of(ends: [usize; 2], cells: Vec<GridIndex>, clearance: impl Fn(GridIndex) -> f64) -> Self {
@@ -144,14 +141,17 @@ impl Branches {
         }
     }
 
-    /// Merges knots that are one place: near each other, or joined by a way everywhere at least
-    /// `open` off the walls, m.
-    pub(super) fn merge(&mut self, open: f64) {
+    /// Merges knots that are one place: joined by a way and less than `apart` from each other, m, or
+    /// joined by a way everywhere at least `open` off the walls, m.
+    pub(super) fn merge(&mut self, apart: f64, open: f64) {
         while let Some(link) = self.shortest(|graph, degrees, branch| {
             let [a, b] = branch.ends;
-            let room = graph.knots[&a].clearance + graph.knots[&b].clearance;
+            let [x, y] = [0, 1].map(|axis| {
+                f64::from(graph.knots[&a].at[axis] - graph.knots[&b].at[axis]) * WallGrid::CELL
+            });
+            let are_near = a != b && libm::hypot(x, y) < apart;
             let are_junctions = degrees[&a] > 2 && degrees[&b] > 2;
-            are_junctions && (branch.length() < SAME * room || branch.narrowest > open)
+            are_near || (are_junctions && branch.narrowest > open)
         }) {
             let [a, b] = self.branches.remove(link).ends;
             if a == b {
@@ -336,8 +336,8 @@ mod tests {
     #[test]
     fn junctions_are_one_place_if_near_or_joined_by_open_ground() {
         let clearance = 0.5;
-        let near = SAME * (clearance + clearance) / CELL;
-        let less = libm::ceil(near) as i32 - 1;
+        let near = 0.7;
+        let less = libm::ceil(near / CELL) as i32 - 1;
         for (apart, narrowest, is_one) in [
             (less, 0.1, true),
             (less + 2, 0.1, false),
@@ -345,7 +345,7 @@ mod tests {
             (less + 2, 0.4, true),
         ] {
             let mut graph = two_junctions(apart, clearance, narrowest);
-            graph.merge(0.3);
+            graph.merge(near, 0.3);
             let knots = if is_one { 5 } else { 6 };
             assert_eq!(graph.knots().len(), knots, "{apart} {narrowest}");
             assert_eq!(graph.branches().len(), knots - 1, "{apart} {narrowest}");
@@ -359,7 +359,7 @@ mod tests {
         for kept in [0, 1] {
             let mut graph = two_junctions(3, 0.5, 0.1);
             graph.knots.get_mut(&kept).unwrap().clearance = 0.6;
-            graph.merge(0.3);
+            graph.merge(0.7, 0.3);
             assert!(graph.knots().contains_key(&kept));
             assert!(!graph.knots().contains_key(&(1 - kept)));
         }
@@ -372,7 +372,7 @@ mod tests {
         for tip in [4, 5] {
             graph.knots.remove(&tip);
         }
-        graph.merge(0.05);
+        graph.merge(0.1, 0.05);
         // Knot 1 has only the branch from the junction now.
         assert_eq!(graph.branches().len(), 3);
         assert_eq!(graph.knots().len(), 4);
@@ -397,7 +397,7 @@ mod tests {
     fn a_knot_that_only_a_ring_made_dissolves_with_it() {
         // Of the two branches at it one is left, through where it was.
         let mut graph = ring_with(2);
-        graph.merge(9.0);
+        graph.merge(0.7, 9.0);
         assert_eq!(graph.branches().len(), 1);
         let left = &graph.branches()[0];
         assert_eq!(left.cells.len(), 81);
@@ -406,7 +406,7 @@ mod tests {
         // With one branch it is a dead end, and with three a junction.
         for ways in [1, 3] {
             let mut graph = ring_with(ways);
-            graph.merge(9.0);
+            graph.merge(0.7, 9.0);
             assert_eq!(graph.branches().len(), ways);
             assert_eq!(graph.knots().len(), ways + 1);
         }

@@ -128,9 +128,6 @@ impl BetterExplorer {
             Plan::Finished if self.drove_through_a_wall() => {
                 Some("the robot drove where the map has a wall")
             }
-            Plan::Finished if self.corridors().is_torn() => {
-                Some("two of its places are nearer than half a corridor's width")
-            }
             Plan::Finished => self.map.chart().doubt(),
             Plan::Return(_) | Plan::Strayed => Some("it did not come back to where its map begins"),
             Plan::Go(_) | Plan::Stuck => Some("a gap is left that it did not come to"),
@@ -368,8 +365,7 @@ impl Mapper for BetterExplorer {
     }
 
     fn certainty(&self) -> Option<f64> {
-        // Open ground is one place of its map, and may be more.
-        let is_doubtful = self.why_doubtful().is_some() || self.corridors().is_open();
+        let is_doubtful = self.why_doubtful().is_some();
         Some(if is_doubtful { DOUBTFUL } else { SURE })
     }
 
