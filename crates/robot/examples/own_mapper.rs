@@ -39,6 +39,7 @@ impl Mapper for Doors {
         MapView {
             places,
             links: Vec::new(),
+            ..MapView::default()
         }
     }
 }

@@ -133,6 +133,9 @@ pub struct MapView {
     pub places: Vec<MapPlace>,
     /// Ways between the places. A way that can be gone in both directions is listed twice.
     pub links: Vec<MapLink>,
+    /// Points along each of the links, in their order, m: from the place that it leaves to the one
+    /// to which it leads. Empty if the map does not know them.
+    pub ways: Vec<Vec<Point>>,
 }
 
 /// A place of a learned map.
@@ -216,6 +219,7 @@ mod tests {
             MapView {
                 places: places.into_iter().map(place).collect(),
                 links: self.0.windows(2).map(link).collect(),
+                ..MapView::default()
             }
         }
 

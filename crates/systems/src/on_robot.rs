@@ -136,6 +136,9 @@ where
         for place in &mut map.places {
             place.position = place.position.map(|at| at * self.metre);
         }
+        for at in map.ways.iter_mut().flatten() {
+            *at *= self.metre;
+        }
         map
     }
 

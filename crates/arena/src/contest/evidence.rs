@@ -137,13 +137,13 @@ impl TrueVisits {
 }
 
 /// Limit of the places' error in a right map of a free world, root mean square, m.
-const MOST_ERROR: f64 = 0.5;
+const MOST_ERROR: f64 = 0.2;
 
-/// Distance within which a place covers the floor of a free world, m.
-const NEAR: f64 = 1.5;
+/// Distance within which a place or a way covers the floor of a free world, m.
+const NEAR: f64 = 1.0;
 
 /// Minimum share of the floor that a right map of a free world covers.
-const LEAST_COVERED: f64 = 0.9;
+const LEAST_COVERED: f64 = 0.95;
 
 impl Evidence {
     /// Returns the cell for which each place of the map stands.
@@ -180,8 +180,8 @@ impl Evidence {
     /// stop; `None` if it is right.
     ///
     /// The [judgement](Self::judge) decides. In a world of free walls a map is also right if its
-    /// places lie where they truly are, and cover the floor: a chart needs no graph of passages.
-    /// O(cells · places).
+    /// places lie where they truly are, and its places and ways cover the floor: a chart needs no
+    /// graph of passages. O(cells · points of the map).
     pub fn complaint(&self, map: &MapView, course: &Course, rule: PlaceRule) -> Option<String> {
         let complaint = self
             .judge(map, &TrueGraph::of_course(course, rule))
@@ -214,12 +214,15 @@ impl Evidence {
             .starts()
             .map(|cell| course.cell_centre(cell))
             .collect();
-        let is_near = |cell: &&Point| founded.values().any(|at| (at - **cell).norm() <= NEAR);
+        let gone = map.ways.iter().flatten();
+        let gone = gone.map(|at| laid.world_from_map.transform(*at));
+        let points: Vec<Point> = founded.into_values().chain(gone).collect();
+        let is_near = |cell: &&Point| points.iter().any(|at| (at - **cell).norm() <= NEAR);
         let covered = cells.iter().filter(is_near).count();
         let share = covered as f64 / cells.len().max(1) as f64;
         Some((share < LEAST_COVERED).then(|| {
             format!(
-                "it has places near {:.0} % of the floor alone",
+                "it has places and ways near {:.0} % of the floor alone",
                 100.0 * share
             )
         }))

@@ -562,6 +562,7 @@ o---o---o---o
         let map = MapView {
             places: vec![place(0)],
             links: Vec::new(),
+            ..MapView::default()
         };
         let stands_for = BTreeMap::from([(0, start)]);
         let judged = judge(&map, &stands_for, Some(1.0), &truth, &BTreeSet::new());
@@ -582,6 +583,7 @@ o---o---o---o
         let map = MapView {
             places: vec![place(0), place(1)],
             links: Vec::new(),
+            ..MapView::default()
         };
         let visits = [
             visit(0, 0),

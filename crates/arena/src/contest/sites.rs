@@ -71,6 +71,7 @@ mod tests {
         let map = MapView {
             places: vec![place(0, 0.0), place(1, 4.0)],
             links: Vec::new(),
+            ..MapView::default()
         };
         let cells = BTreeMap::from([(0, Cell::new(1, 1)), (1, Cell::new(3, 1))]);
         let sites = Sites::of(&map, cells, squares);

@@ -152,6 +152,7 @@ impl WatchedRun {
                     to: *to,
                 })
                 .collect(),
+            ..MapView::default()
         }
     }
 }

@@ -26,6 +26,9 @@ struct Body {
     corridor_width: f64,
     places: Vec<Place>,
     links: Vec<(u32, u32)>,
+    /// Points along each link, m; empty if they are not known.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    ways: Vec<Vec<Point>>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -53,6 +56,7 @@ pub(crate) fn view_file(
         corridor_width,
         places: view.places.iter().map(place).collect(),
         links: view.links.iter().map(|link| (link.from, link.to)).collect(),
+        ways: view.ways.clone(),
     };
     MapFiles { system }.write(origin, &body)
 }
@@ -65,6 +69,7 @@ impl ViewFile {
             corridor_width,
             places,
             links,
+            ways,
         } = body;
         let place = |place: Place| MapPlace {
             id: place.id,
@@ -76,6 +81,7 @@ impl ViewFile {
             links: (links.into_iter())
                 .map(|(from, to)| MapLink { from, to })
                 .collect(),
+            ways,
         };
         let system = system.to_owned();
         Some(Self {

@@ -26,6 +26,7 @@ fn map() -> MapView {
             place(7, None),
         ],
         links: vec![link(0, 1), link(1, 0), link(1, 4), link(4, 7)],
+        ..MapView::default()
     }
 }
 

@@ -91,5 +91,6 @@ fn view(map: &Diktiometry) -> MapView {
     MapView {
         places: map.paths.places().map(|(id, _)| place(id)).collect(),
         links: links.into_iter().collect(),
+        ..MapView::default()
     }
 }

@@ -518,6 +518,7 @@ impl Mapper for PlaceGraph {
         MapView {
             places: places.collect(),
             links: links.collect(),
+            ..MapView::default()
         }
     }
 

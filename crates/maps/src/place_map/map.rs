@@ -245,6 +245,7 @@ impl Mapper for PlaceMap {
         MapView {
             places: network.ids().map(place).collect(),
             links: links.collect(),
+            ..MapView::default()
         }
     }
 

@@ -298,6 +298,7 @@ pub(super) fn view(places: &[ScanPlace], links: impl Iterator<Item = [u32; 2]>) 
     MapView {
         places: (0..).zip(places).map(place).collect(),
         links: links.flat_map(both_ways).collect(),
+        ..MapView::default()
     }
 }
 

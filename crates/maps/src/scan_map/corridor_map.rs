@@ -178,6 +178,7 @@ impl CorridorMap {
         MapView {
             places: (0..).zip(&self.places).map(place).collect(),
             links: self.ways.iter().flat_map(both_ways).collect(),
+            ..MapView::default()
         }
     }
 }

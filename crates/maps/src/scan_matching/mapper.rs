@@ -308,6 +308,7 @@ impl Mapper for ScanMatching {
         MapView {
             places: (0..).zip(self.graph.poses()).map(place).collect(),
             links: links.collect(),
+            ..MapView::default()
         }
     }
 

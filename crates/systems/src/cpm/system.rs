@@ -540,6 +540,7 @@ pub fn view(map: &CpMap) -> MapView {
     MapView {
         places: map.junctions().map(place).collect(),
         links: links.collect(),
+        ..MapView::default()
     }
 }
 

@@ -65,5 +65,6 @@ pub(super) fn view(nodes: &[Node]) -> MapView {
                 heads.map(move |to| MapLink { from, to })
             })
             .collect(),
+        ..MapView::default()
     }
 }

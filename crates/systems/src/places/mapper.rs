@@ -399,6 +399,7 @@ impl Mapper for PlacesMapper {
         MapView {
             places: firsts.map(place).collect(),
             links,
+            ..MapView::default()
         }
     }
 
