@@ -142,16 +142,20 @@ impl Branches {
     }
 
     /// Merges knots that are one place: joined by a way and less than `apart` from each other, m, or
-    /// joined by a way everywhere at least `open` off the walls, m.
+    /// joined by a way everywhere at least `open` off the walls, m. A ring less than `apart` long goes.
     pub(super) fn merge(&mut self, apart: f64, open: f64) {
         while let Some(link) = self.shortest(|graph, degrees, branch| {
             let [a, b] = branch.ends;
             let [x, y] = [0, 1].map(|axis| {
                 f64::from(graph.knots[&a].at[axis] - graph.knots[&b].at[axis]) * WallGrid::CELL
             });
-            let are_near = a != b && libm::hypot(x, y) < apart;
+            let far = if a == b {
+                branch.length()
+            } else {
+                libm::hypot(x, y)
+            };
             let are_junctions = degrees[&a] > 2 && degrees[&b] > 2;
-            are_near || (are_junctions && branch.narrowest > open)
+            far < apart || (are_junctions && branch.narrowest > open)
         }) {
             let [a, b] = self.branches.remove(link).ends;
             if a == b {

@@ -7,7 +7,7 @@ use tolman_robot::{Landmark, MapLink, MapPlace, MapView};
 use super::branches::Branches;
 use super::skeleton::Skeleton;
 use super::squares::Squares;
-use super::wall_grid::{index_of, middle};
+use super::wall_grid::{GridIndex, index_of, middle};
 use super::{ScanChart, WallGrid};
 
 /// The places of a [`ScanChart`] where corridors meet or end or a landmark stands, and the ways
@@ -31,12 +31,14 @@ pub struct CorridorPlace {
 }
 
 /// A way of a [`CorridorMap`], which can be gone either way.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct CorridorWay {
     /// Numbers of the places at the way's ends, which may be the same.
     pub ends: [u32; 2],
     /// Length of the way, m.
     pub length: f64,
+    /// Points along the way from its first end to its second, m.
+    pub points: Vec<Point>,
 }
 
 /// Minimum distance of open ground from all walls, as a share of the corridors' width. A crossing's
@@ -108,6 +110,7 @@ impl CorridorMap {
         let ways = branches.branches().iter().map(|branch| CorridorWay {
             ends: branch.ends.map(|end| numbers[&end]),
             length: branch.length(),
+            points: points(&branch.cells),
         });
         Self {
             places: branches.knots().iter().map(place).collect(),
@@ -173,14 +176,27 @@ impl CorridorMap {
         };
         let both_ways = |way: &CorridorWay| {
             let [a, b] = way.ends;
-            [MapLink { from: a, to: b }, MapLink { from: b, to: a }]
+            MapLink::both_ways(a, b)
+        };
+        let there_and_back = |way: &CorridorWay| {
+            let back = way.points.iter().rev().copied().collect();
+            [way.points.clone(), back]
         };
         MapView {
             places: (0..).zip(&self.places).map(place).collect(),
             links: self.ways.iter().flat_map(both_ways).collect(),
-            ..MapView::default()
+            ways: self.ways.iter().flat_map(there_and_back).collect(),
         }
     }
+}
+
+/// Number of cells from one point of a way to the next.
+const CELLS_TO_A_POINT: usize = 4;
+
+/// Returns points along a line of cells, its ends among them.
+fn points(cells: &[GridIndex]) -> Vec<Point> {
+    let some = cells.iter().copied().step_by(CELLS_TO_A_POINT);
+    some.chain(cells.last().copied()).map(middle).collect()
 }
 
 /// Returns whether the robot stood near a point and sensed no landmark.
