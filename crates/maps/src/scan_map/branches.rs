@@ -141,6 +141,34 @@ impl Branches {
         }
     }
 
+    /// Makes a knot in the middle of each room that lines only cross: where cells of a branch have
+    /// more than `open` to the nearest wall, m, and its ends do not. O(cells).
+    pub(super) fn mark_rooms(&mut self, open: f64, clearance: impl Fn(GridIndex) -> f64) {
+        let mut next = 0;
+        while let Some(branch) = self.branches.get(next) {
+            let widths: Vec<f64> = branch.cells.iter().map(|at| clearance(*at)).collect();
+            let is_open = |width: &f64| *width > open;
+            // A room at an end is the place of the knot there.
+            let first = widths.iter().position(|width| !is_open(width));
+            let last = widths.iter().rposition(|width| !is_open(width));
+            let between = first.zip(last).map(|(first, last)| first..last);
+            let widest = between.and_then(|between| {
+                let wide = between.filter(|index| is_open(&widths[*index]));
+                wide.max_by(|a, b| widths[*a].total_cmp(&widths[*b]))
+            });
+            match widest {
+                // Its halves are looked at later.
+                Some(index) => {
+                    let middle = self.split(next, index);
+                    if let Some(knot) = self.knots.get_mut(&middle) {
+                        knot.clearance = widths[index];
+                    }
+                }
+                None => next += 1,
+            }
+        }
+    }
+
     /// Merges knots that are one place: joined by a way and less than `apart` from each other, m, or
     /// joined by a way everywhere at least `open` off the walls, m. A ring less than `apart` long goes.
     pub(super) fn merge(&mut self, apart: f64, open: f64) {

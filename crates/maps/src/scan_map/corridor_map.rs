@@ -83,6 +83,7 @@ impl CorridorMap {
         let skeleton = Skeleton::of(&grid, ground);
         let mut branches = Branches::of(&skeleton, chart.radius());
         branches.prune();
+        branches.mark_rooms(OPEN * width, |at| skeleton.depth(at) + chart.radius());
         branches.merge(APART * width, OPEN * width);
         let reach = STANDS_BY * width / WallGrid::CELL;
         let degrees = branches.degrees();
