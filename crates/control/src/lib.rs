@@ -15,6 +15,9 @@
 //! 5. [`Avoid`]: stop before a wall, and edge away from one beside.
 //! 6. [`Settle`], which is ours: make a turn to and fro die out, so that every action ends.
 //!
+//! Who has no compass, or one that errs, has a [`HeadingFilter`], which is ours: it tells the heading
+//! from the wheels and the directions of the walls.
+//!
 //! The robot of another paper, CPM's e-puck, has its own layers in [`epuck`]. Those of a robot that
 //! drives until something is near are in [`wander`].
 //!
@@ -87,6 +90,7 @@ mod center;
 mod corridor;
 mod drive;
 pub mod epuck;
+mod heading;
 mod layer;
 mod move_layer;
 mod orient;
@@ -103,6 +107,7 @@ pub use avoid::Avoid;
 pub use center::Center;
 pub use corridor::{Corridor, CorridorDetector, RingError};
 pub use drive::{Drive, Driven};
+pub use heading::{HeadingFilter, HeadingReadings};
 pub use layer::{Layer, Proposal, Situation, View};
 pub use move_layer::{Move, heading_of, unit_of};
 pub use orient::Orient;

@@ -16,6 +16,7 @@ mod laser_diktiometry;
 mod noisy_mouse;
 mod office_robot;
 mod online_slam;
+mod own_heading;
 mod pioneer_mouse;
 mod place_scores;
 mod registry;

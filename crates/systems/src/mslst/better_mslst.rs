@@ -1,4 +1,5 @@
 use alloc::sync::Arc;
+use core::f64::consts::PI;
 
 use rand::Rng;
 use tolman_control::{RingError, Stack};
@@ -10,7 +11,7 @@ use tolman_robot::{
 
 use super::better::{BetterConfig, BetterExplorer, BetterMap, BetterNavigator};
 use crate::on_robot::{fitted, needed};
-use crate::{Actor, Brain, Doing, ForRobotError, LaserRobot, OnRobot, RolledStep};
+use crate::{Actor, Brain, Doing, ForRobotError, LaserRobot, OnRobot, OwnHeading, RolledStep};
 
 /// The better MSLST as a whole: it explores, makes its map ready, and then navigates.
 ///
@@ -46,13 +47,12 @@ impl BetterMslst {
     /// from `seed`.
     ///
     /// # Errors
-    /// If the measures contradict each other, or there is no compass or no odometry.
+    /// If the measures contradict each other, or there is no odometry.
     pub fn for_robot<R: LaserRobot>(
         measures: &RobotMeasures,
         robot: R,
         seed: u64,
-    ) -> Result<OnRobot<Fitted<R>, Actor<Self>>, ForRobotError> {
-        needed(measures.compass_error, "compass_error")?;
+    ) -> Result<OnRobot<Fitted<R>, OwnHeading<Self>>, ForRobotError> {
         let mut config = BetterConfig::pioneer();
         config.odometry_sd = needed(measures.odometry_error, "odometry_error")?;
         config.check()?;
@@ -61,6 +61,7 @@ impl BetterMslst {
         let layers = Stack::paper(ring, config.diameter, config.corridor_width)?;
         let metre = robot.metre();
         let system = Actor::seeded(Self::new(config, ring), layers, seed);
+        let system = OwnHeading::new(system, measures.compass_error.unwrap_or(PI));
         Ok(OnRobot::new(robot, system, metre))
     }
 
