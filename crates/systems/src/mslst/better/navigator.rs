@@ -102,11 +102,18 @@ impl BetterNavigator {
         self.belief.certainty(&map.standpoints, within)
     }
 
-    /// Returns whether the likeliest standpoint is at a place of the map.
-    fn is_at_a_place(&self) -> bool {
+    /// Returns the probability that the robot is at the place of its likeliest standpoint; 0 if that
+    /// is on the way between places. O(standpoints believed in · places).
+    fn at_its_place(&self) -> f64 {
         let corridors = self.maps.learned().corridors();
-        self.likeliest()
-            .is_some_and(|at| corridors.at(at).is_some())
+        let place = self.likeliest().and_then(|at| corridors.at(at));
+        if place.is_none() {
+            return 0.0;
+        }
+        let believed = self.belief.probabilities().iter().copied().map(f64::from);
+        let there = self.current().standpoints.positions().zip(believed);
+        let there = there.filter(|(at, mass)| *mass > 0.0 && corridors.at(*at) == place);
+        there.map(|(_, mass)| mass).sum()
     }
 
     /// Looks for walls beyond its map that have just barred its way.
@@ -236,7 +243,7 @@ impl Brain for BetterNavigator {
             Task::Reach(Goal::Landmark(Landmark::Goal)) => Standing::UnderWay,
             Task::Reach(_) => Standing::gave_up("its map leads to the landmark of the goal alone"),
             Task::Localize => {
-                if self.sure() > SURE_TO_SAY && self.is_at_a_place() {
+                if self.at_its_place() > SURE_TO_SAY {
                     Standing::Done
                 } else {
                     Standing::UnderWay
