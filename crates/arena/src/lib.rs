@@ -41,6 +41,7 @@ pub mod episode;
 mod episode_error;
 pub mod family;
 pub mod foreign;
+pub mod free_family;
 pub mod gngslam;
 mod lingerer;
 pub mod log_score;

@@ -12,6 +12,7 @@ mod driven;
 mod entrant;
 mod families;
 mod figures;
+mod free_worlds;
 mod hardest;
 mod map_size;
 mod robustness;
@@ -27,6 +28,7 @@ use tolman_replay::Replay;
 
 use contest::Contest;
 use families::Family;
+use free_worlds::{FREE_WORLDS, FreeWorlds};
 use hardest::{HARDEST, Hardest};
 use robustness::{ABLATION, ROBUSTNESS, Robustness};
 
@@ -82,6 +84,7 @@ struct Mslst {
     contests: Vec<Contest>,
     families: Vec<Family>,
     robustness: Robustness,
+    free_worlds: FreeWorlds,
     /// The hardest worlds; `None` if the caller names mazes.
     hardest: Option<Hardest>,
 }
@@ -118,6 +121,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         contests,
         families: Vec::new(),
         robustness: Robustness::new(runs, limit),
+        free_worlds: FreeWorlds::new(runs, options.seed),
         hardest: None,
     };
     if papers {
@@ -128,6 +132,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         tables.push(map_size::table(runs));
         tables.extend(mslst.robustness.tables());
         tables.push(hardest.table());
+        tables.push(mslst.free_worlds.table());
         for family in &mslst.families {
             let of_mazes = toml::Value::try_from(family.config())?;
             config.insert(family.name().to_owned(), of_mazes);
@@ -158,6 +163,9 @@ impl Procedure for Mslst {
         }
         if [ROBUSTNESS, ABLATION].contains(&job.table) {
             return self.robustness.run(job);
+        }
+        if job.table == FREE_WORLDS {
+            return self.free_worlds.run(job);
         }
         if let Some(hardest) = self.hardest.as_ref().filter(|_| job.table == HARDEST) {
             return hardest.run(job);
