@@ -289,7 +289,7 @@ pub(crate) fn moved(mut map: MapView, world_from_map: Pose) -> MapView {
     for place in &mut map.places {
         place.position = place.position.map(|at| world_from_map.transform(at));
     }
-    for at in map.ways.iter_mut().flatten() {
+    for at in map.ways.iter_mut().flatten().chain(&mut map.floor) {
         *at = world_from_map.transform(*at);
     }
     map

@@ -136,6 +136,8 @@ pub struct MapView {
     /// Points along each of the links, in their order, m: from the place that it leaves to the one
     /// to which it leads. Empty if the map does not know them.
     pub ways: Vec<Vec<Point>>,
+    /// Points of the floor beside places and ways that the map knows, as in rooms, m.
+    pub floor: Vec<Point>,
 }
 
 /// A place of a learned map.

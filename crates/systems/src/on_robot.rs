@@ -136,7 +136,7 @@ where
         for place in &mut map.places {
             place.position = place.position.map(|at| at * self.metre);
         }
-        for at in map.ways.iter_mut().flatten() {
+        for at in map.ways.iter_mut().flatten().chain(&mut map.floor) {
             *at *= self.metre;
         }
         map

@@ -3,7 +3,7 @@
 use alloc::collections::{BTreeMap, BTreeSet};
 
 use serde::{Deserialize, Serialize};
-use tolman_geom::Point;
+use tolman_geom::{Point, Vector};
 use tolman_maze::Cell;
 use tolman_robot::{MapPlace, MapView, VisitNaming};
 
@@ -33,7 +33,7 @@ pub struct Evidence {
     purity: Option<f64>,
     /// Cells that the robot drove through, in order: columns and rows.
     way: Vec<(u16, u16)>,
-    /// True position of the robot at its first visit to each place, m.
+    /// Mean of the robot's true positions at its visits to each place, m. A visit may be aside.
     founded: Vec<(u32, [f64; 2])>,
 }
 
@@ -119,19 +119,20 @@ impl TrueVisits {
         let driven = path.iter().skip(from);
         let mut way: Vec<Cell> = driven.map(|at| squares.cell_at(*at)).collect();
         way.dedup();
-        let mut founded: BTreeMap<u32, Point> = BTreeMap::new();
+        let mut sums: BTreeMap<u32, (Vector, f64)> = BTreeMap::new();
         for (place, at) in visits {
-            founded.entry(place).or_insert(at);
+            let (sum, count) = sums.entry(place).or_default();
+            (*sum, *count) = (*sum + at.coords, *count + 1.0);
         }
+        let founded = sums.into_iter();
+        let founded = founded.map(|(place, (sum, count))| (place, (sum / count).into()));
         Evidence {
             stands_for: (stands_for.iter())
                 .map(|(place, cell)| (*place, cell.x, cell.y))
                 .collect(),
             purity,
             way: way.iter().map(|cell| (cell.x, cell.y)).collect(),
-            founded: (founded.into_iter())
-                .map(|(place, at)| (place, at.into()))
-                .collect(),
+            founded: founded.collect(),
         }
     }
 }
@@ -180,7 +181,7 @@ impl Evidence {
     /// stop; `None` if it is right.
     ///
     /// The [judgement](Self::judge) decides. In a world of free walls a map is also right if its
-    /// places lie where they truly are, and its places and ways cover the floor: a chart needs no
+    /// places lie where they truly are, and its places, ways and rooms cover the floor: a chart needs no
     /// graph of passages. O(cells · points of the map).
     pub fn complaint(&self, map: &MapView, course: &Course, rule: PlaceRule) -> Option<String> {
         let complaint = self
@@ -214,7 +215,7 @@ impl Evidence {
             .starts()
             .map(|cell| course.cell_centre(cell))
             .collect();
-        let gone = map.ways.iter().flatten();
+        let gone = map.ways.iter().flatten().chain(&map.floor);
         let gone = gone.map(|at| laid.world_from_map.transform(*at));
         let points: Vec<Point> = founded.into_values().chain(gone).collect();
         let is_near = |cell: &&Point| points.iter().any(|at| (at - **cell).norm() <= NEAR);

@@ -29,6 +29,9 @@ struct Body {
     /// Points along each link, m; empty if they are not known.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     ways: Vec<Vec<Point>>,
+    /// Points of the floor beside them, m.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    floor: Vec<Point>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -57,6 +60,7 @@ pub(crate) fn view_file(
         places: view.places.iter().map(place).collect(),
         links: view.links.iter().map(|link| (link.from, link.to)).collect(),
         ways: view.ways.clone(),
+        floor: view.floor.clone(),
     };
     MapFiles { system }.write(origin, &body)
 }
@@ -70,6 +74,7 @@ impl ViewFile {
             places,
             links,
             ways,
+            floor,
         } = body;
         let place = |place: Place| MapPlace {
             id: place.id,
@@ -82,6 +87,7 @@ impl ViewFile {
                 .map(|(from, to)| MapLink { from, to })
                 .collect(),
             ways,
+            floor,
         };
         let system = system.to_owned();
         Some(Self {
