@@ -12,6 +12,8 @@ pub(super) struct Branches {
     /// Knots by number; numbers of removed knots are missing.
     knots: BTreeMap<usize, Knot>,
     branches: Vec<Branch>,
+    /// Cells of the branches that were removed: the floor of rooms beside the ways.
+    removed: Vec<GridIndex>,
 }
 
 /// Point where lines meet or end.
@@ -117,6 +119,18 @@ impl Branches {
         &self.branches
     }
 
+    /// Returns the cells of removed branches.
+    pub(super) fn removed(&self) -> &[GridIndex] {
+        &self.removed
+    }
+
+    /// Removes the branch at an index and returns its ends.
+    fn remove(&mut self, index: usize) -> [usize; 2] {
+        let Branch { ends, cells, .. } = self.branches.remove(index);
+        self.removed.extend(cells);
+        ends
+    }
+
     /// Removes branches that only lead into corners, the shortest first.
     pub(super) fn prune(&mut self) {
         while let Some(spur) = self.shortest(|graph, degrees, branch| {
@@ -127,7 +141,7 @@ impl Branches {
             let is_spur = degrees[&tip] == 1 && degrees[&root] > 2;
             is_spur && branch.length() < SPUR * graph.knots[&root].clearance
         }) {
-            let ends = self.branches.remove(spur).ends;
+            let ends = self.remove(spur);
             let degrees = self.degrees();
             for end in ends {
                 match degrees[&end] {
@@ -185,7 +199,7 @@ impl Branches {
             let are_junctions = degrees[&a] > 2 && degrees[&b] > 2;
             far < apart || (are_junctions && branch.narrowest > open)
         }) {
-            let [a, b] = self.branches.remove(link).ends;
+            let [a, b] = self.remove(link);
             if a == b {
                 if self.degrees()[&a] == 2 {
                     self.dissolve(a);
@@ -362,6 +376,7 @@ mod tests {
         Branches {
             knots: knots.enumerate().collect(),
             branches: [between].into_iter().chain(spurs).collect(),
+            removed: Vec::new(),
         }
     }
 
@@ -422,6 +437,7 @@ mod tests {
         Branches {
             knots: knots.enumerate().collect(),
             branches: [ring].into_iter().chain(spurs).collect(),
+            removed: Vec::new(),
         }
     }
 

@@ -18,6 +18,8 @@ use super::{ScanChart, WallGrid};
 pub struct CorridorMap {
     places: Vec<CorridorPlace>,
     ways: Vec<CorridorWay>,
+    /// Points of rooms beside the ways, m.
+    floor: Vec<Point>,
     width: f64,
 }
 
@@ -116,6 +118,7 @@ impl CorridorMap {
         Self {
             places: branches.knots().iter().map(place).collect(),
             ways: ways.collect(),
+            floor: points(branches.removed()),
             width,
         }
     }
@@ -187,6 +190,7 @@ impl CorridorMap {
             places: (0..).zip(&self.places).map(place).collect(),
             links: self.ways.iter().flat_map(both_ways).collect(),
             ways: self.ways.iter().flat_map(there_and_back).collect(),
+            floor: self.floor.clone(),
         }
     }
 }
