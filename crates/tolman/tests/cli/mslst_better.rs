@@ -69,7 +69,7 @@ fn a_map_that_is_unfinished_spoiled_or_of_another_maze_is_told_of() {
     let off = [&LEARN[..], &["--set", "diameter=-1"]].concat();
     tolman_in(&folder, &off).refused(2, &["`diameter` is -1; give a number from 0.05 to 5"]);
     let unknown = [&LEARN[..], &["--set", "patience=1"]].concat();
-    tolman_in(&folder, &unknown).refused(2, &["no setting patience", "slide_sd"]);
+    tolman_in(&folder, &unknown).refused(2, &["no setting patience", "odometry_sd"]);
     let text = fs::read_to_string(folder.join("map.json")).unwrap();
     let spoiled = text.replace("\"cell\":0.05", "\"cell\":0.5");
     fs::write(folder.join("map.json"), spoiled).unwrap();

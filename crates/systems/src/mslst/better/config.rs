@@ -12,8 +12,6 @@ pub struct BetterConfig {
     pub diameter: f64,
     /// Standard deviation of the odometry of a time step, as a share of its distance.
     pub odometry_sd: f64,
-    /// Standard deviation of the sideways push by a wall in a time step with a touch, m.
-    pub slide_sd: f64,
     /// Errors of the robot's motors.
     pub motors: Motors,
     /// Width of a corridor from wall to wall, m, for which the layers are made.
@@ -57,7 +55,6 @@ impl BetterConfig {
         Self {
             diameter: ROBOT_UNIT,
             odometry_sd: 0.05,
-            slide_sd: 0.1,
             motors: Motors::PIONEER,
             corridor_width: 1.9 * ROBOT_UNIT,
             action_way: ROBOT_UNIT,
@@ -82,7 +79,6 @@ impl BetterConfig {
         let fields = [
             ("diameter", self.diameter, [0.05, 5.0]),
             ("odometry_sd", self.odometry_sd, SHARE),
-            ("slide_sd", self.slide_sd, [0.0, 5.0]),
             ("motors.turn_per_command", turn_per_command, [0.01, 7.0]),
             ("motors.turn_sd", turn_sd, SHARE),
             ("motors.way_per_command", way_per_command, [0.01, 10.0]),

@@ -38,13 +38,14 @@ impl Reckoning {
             self.rolled += along.unit() * odometry.distance;
             self.heard += u32::from(odometry.distance.abs() > LEADS_ON * config.action_way);
             let sd = config.odometry_sd * odometry.distance.abs();
-            self.variance += Vector::new(sd * sd, sd * sd);
+            self.variance += Vector::repeat(sd * sd);
         } else {
             self.unheard += u32::from(seen.step.doing != Doing::PutDown);
         }
         if seen.bump == Some(true) {
-            let sd = config.slide_sd;
-            self.variance += Vector::new(sd * sd, sd * sd);
+            // The wheels may have spun all the way, or a wall pushed the body aside.
+            let sd = config.action_way / f64::from(STEPS_OF_ACTION);
+            self.variance += Vector::repeat(sd * sd);
         }
         if let Doing::Ended(action, outcome) = seen.step.doing {
             self.end(action, outcome, config);
@@ -108,7 +109,7 @@ mod tests {
 
     /// Returns the displacement to the east, m, and its standard deviation, for these distances per
     /// step by odometry.
-    fn reckoned(told: &[Option<f64>], outcome: Outcome) -> (Vector, Vector) {
+    fn reckoned(told: &[Option<f64>], outcome: Outcome, bump: bool) -> (Vector, Vector) {
         let step = |doing, distance: Option<f64>| RolledStep {
             step: TimeStep {
                 scan: None,
@@ -120,7 +121,7 @@ mod tests {
                 distance,
                 turn: 0.0,
             }),
-            bump: None,
+            bump: Some(bump),
         };
         let config = BetterConfig::pioneer();
         let mut reckoning = Reckoning::default();
@@ -139,16 +140,19 @@ mod tests {
     fn what_the_wheels_did_not_tell_is_what_the_action_lacks() {
         let way = BetterConfig::pioneer().action_way;
         let half = Some(0.5 * way);
-        let (_, sure) = reckoned(&[half, half], Outcome::Completed);
+        let (_, sure) = reckoned(&[half, half], Outcome::Completed, false);
         for told in [[half, half], [half, None], [None, half], [None, None]] {
-            let (moved, sd) = reckoned(&told, Outcome::Completed);
+            let (moved, sd) = reckoned(&told, Outcome::Completed, false);
             assert!((moved - Vector::new(way, 0.0)).norm() < 1e-9, "{told:?}");
             let has_gap = told.contains(&None);
             assert_eq!(sd.x > sure.x, has_gap, "{told:?}");
         }
-        let (moved, _) = reckoned(&[None], Outcome::CutShort);
+        let (moved, _) = reckoned(&[None], Outcome::CutShort, false);
         assert!((moved.x - 0.5 * way).abs() < 1e-9, "{moved}");
-        let (moved, _) = reckoned(&[None], Outcome::Failed);
+        let (moved, _) = reckoned(&[None], Outcome::Failed, false);
         assert_eq!(moved, Vector::zeros());
+        // Against a wall it may not have moved at all.
+        let (moved, sd) = reckoned(&[half], Outcome::Completed, true);
+        assert!(sd.x >= moved.x, "{moved} ± {sd}");
     }
 }

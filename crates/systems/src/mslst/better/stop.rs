@@ -27,9 +27,11 @@ impl Stop {
 
     /// Returns whether the robot was lifted before the time step `seen`, the first since it
     /// stopped. `seen` holds the scan at its end. The compass then contradicts the wheels, or a
-    /// scan has walls where the other sees through. O(beams).
+    /// scan has walls where the other sees through. In contact the wheels may spin or slip, so they
+    /// contradict nothing. O(beams).
     pub(super) fn was_left_by_a_lift(&self, seen: &RolledStep, scan: Option<&Scan>) -> bool {
-        let (Some(heading), Some(odometry)) = (seen.step.heading, seen.odometry) else {
+        let rolled = seen.odometry.filter(|_| seen.bump != Some(true));
+        let (Some(heading), Some(odometry)) = (seen.step.heading, rolled) else {
             return false;
         };
         let turned = self.heading.turn_to(heading);
@@ -74,8 +76,15 @@ mod tests {
     }
 
     /// Returns whether a robot thinks that it was lifted. It stopped between the walls `before`,
-    /// looking east. Now it senses `now`, looking `heading`, and has moved by odometry.
-    fn was_lifted(before: Walls, now: Walls, heading: Heading, wheels: Odometry) -> bool {
+    /// looking east. Now it senses `now`, looking `heading`, and has moved by odometry, perhaps
+    /// against a wall.
+    fn was_lifted(
+        before: Walls,
+        now: Walls,
+        heading: Heading,
+        wheels: Odometry,
+        bump: bool,
+    ) -> bool {
         let stop = Stop::of(Some(Heading::EAST), Some(&scan(before, Heading::EAST))).unwrap();
         let now = scan(now, heading);
         let step = TimeStep {
@@ -87,7 +96,7 @@ mod tests {
         let seen = RolledStep {
             step,
             odometry: Some(wheels),
-            bump: None,
+            bump: Some(bump),
         };
         stop.was_left_by_a_lift(&seen, Some(&now))
     }
@@ -99,20 +108,40 @@ mod tests {
             ..STILL
         };
         let farther = [0.75, 0.5, 3.75, 0.5];
-        assert!(!was_lifted(DEAD_END, farther, Heading::EAST, back));
+        assert!(!was_lifted(DEAD_END, farther, Heading::EAST, back, false));
         let round = Odometry { turn: 1.6, ..STILL };
-        assert!(!was_lifted(DEAD_END, DEAD_END, Heading::NORTH, round));
+        assert!(!was_lifted(
+            DEAD_END,
+            DEAD_END,
+            Heading::NORTH,
+            round,
+            false
+        ));
     }
 
     #[test]
     fn a_turn_that_the_wheels_do_not_know_of_is_a_lift() {
-        assert!(was_lifted(DEAD_END, DEAD_END, Heading::NORTH, STILL));
+        assert!(was_lifted(DEAD_END, DEAD_END, Heading::NORTH, STILL, false));
+    }
+
+    #[test]
+    fn wheels_that_spin_against_a_wall_tell_of_no_lift() {
+        let facing = [0.5, 4.0, 4.0, 4.0];
+        let back = Odometry {
+            distance: -0.9,
+            ..STILL
+        };
+        for bump in [false, true] {
+            // By the wheels it left the wall, which is as near as before.
+            let is_lift = was_lifted(facing, facing, Heading::EAST, back, bump);
+            assert_eq!(is_lift, !bump);
+        }
     }
 
     #[test]
     fn walls_where_none_were_are_a_lift() {
         let elsewhere = [0.5, 4.0, 0.5, 4.0];
-        assert!(was_lifted(DEAD_END, elsewhere, Heading::EAST, STILL));
-        assert!(was_lifted(elsewhere, DEAD_END, Heading::EAST, STILL));
+        assert!(was_lifted(DEAD_END, elsewhere, Heading::EAST, STILL, false));
+        assert!(was_lifted(elsewhere, DEAD_END, Heading::EAST, STILL, false));
     }
 }
