@@ -69,10 +69,6 @@ class Maze:
         return steps
 
 
-class OutOfTime(Exception):
-    pass
-
-
 class Play:
     def __init__(self, maze, system, noise, seed, corridor, spacing):
         self.maze, self.system = maze, system
@@ -120,11 +116,9 @@ x = {turtle.LASER_X}
         for line in self.brain.stdout:
             said = json.loads(line)
             if "go" in said:
-                before = self.robot.pose()
                 self.robot.go(said["go"]["distance"], said["go"]["turn"])
-                after = self.robot.pose()
-                self.path.append(after[:2])
-                self.metres += math.dist(before[:2], after[:2])
+                self.path.append(self.robot.pose()[:2])
+                self.metres += abs(said["go"]["distance"])  # also if its wheels spin
                 too_long = self.metres > metres or len(self.path) > MOTIONS
                 sensing = self.robot.sense()
                 answer = {"sensing": sensing, "landmark": self.landmark(), "ask": wanted}
