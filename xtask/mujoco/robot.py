@@ -19,9 +19,11 @@ PHYSICS_STEP, CONTROL_STEPS = 0.004, 5
 WALL = 0.012  # thickness, m
 
 # What is wrong with floor, wheels and sensors. Angles in degrees.
+REAL = dict(range_sd=0.010, lost=0.005, compass_sd=1.5, iron=3.0, odometry=0.01, turns=0.03)
 NOISE = {
     "none": {},
-    "real": dict(range_sd=0.010, lost=0.005, compass_sd=1.5, iron=3.0, odometry=0.01, turns=0.03),
+    "real": REAL,
+    "late": REAL | dict(scan_age=0.7),  # a driver that does not wait for a scan at rest
     "hard": dict(
         range_sd=0.015, range_share=0.01, lost=0.03, compass_sd=1.5, iron=5.0, compass_bias=3.0,
         odometry=0.02, turns=0.03, left_wheel=1.01, friction=0.5, scan_age=0.1,

@@ -65,6 +65,8 @@ enum Noise {
     /// Ranges ± 10 mm, 0.5 % lost beams, a compass ± 1.5° that iron bends by 3°, odometry off by
     /// 1 % and its turns by 3 %
     Real,
+    /// As real, with scans 0.7 s old: a driver that does not wait until the robot rests
+    Late,
     /// Ranges ± 15 mm ± 1 %, 3 % lost beams, a compass off by 3° that iron bends by 5°, odometry
     /// off by 2 %, one wheel 1 % larger, a slippery floor, scans 0.1 s old
     Hard,
