@@ -4,11 +4,13 @@ use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
 use tolman_control::{Drive, Driven, Stack};
 use tolman_robot::{
-    Compass, Goal, Guess, MapView, Mapper, Ranges, Ring, Robot, SensesLandmarks, Standing, System,
-    Task, TurnTranslate, VisitNaming,
+    Compass, Fitted, Goal, Guess, MapView, Mapper, Ranges, Ring, Robot, RobotMeasures,
+    SensesLandmarks, Standing, System, Task, TurnTranslate, VisitNaming,
 };
 
-use crate::{Brain, Doing, OfStep, stream};
+use crate::mslst::ROBOT_UNIT;
+use crate::on_robot::{CORRIDOR_WIDTH, fitted, needed};
+use crate::{Brain, Doing, ForRobotError, LaserRobot, OfStep, OnRobot, stream};
 
 /// A [`Brain`] with the layers of a body: it drives any robot that turns and translates, and senses
 /// ranges, its heading and landmarks.
@@ -64,6 +66,38 @@ impl<B: Brain> Actor<B> {
     pub fn seeded(brain: B, stack: Stack, seed: u64) -> Self {
         let drive = Drive::new(stack, stream(seed, LAYERS_STREAM));
         Self::new(brain, drive, stream(seed, BRAIN_STREAM))
+    }
+
+    /// Returns the brain that `made` returns for a ring and a diameter, on a robot of these
+    /// measures, with the layers of the laser Pioneer. A robot that fills more of its corridors is
+    /// wider to both, in the system's metres. All random numbers follow from `seed`.
+    ///
+    /// # Errors
+    /// If the measures contradict each other, or there is no compass.
+    pub fn for_robot<R: LaserRobot>(
+        made: impl FnOnce(Ring, f64) -> B,
+        measures: &RobotMeasures,
+        robot: R,
+        seed: u64,
+    ) -> Result<OnRobot<Fitted<R>, Self>, ForRobotError> {
+        needed(measures.compass_error, "compass_error")?;
+        let (robot, system) = Self::fitted(made, measures, robot, seed)?;
+        let metre = robot.metre();
+        Ok(OnRobot::new(robot, system, metre))
+    }
+
+    /// Returns the robot as the system sees it, and the system.
+    pub(crate) fn fitted<R: LaserRobot>(
+        made: impl FnOnce(Ring, f64) -> B,
+        measures: &RobotMeasures,
+        robot: R,
+        seed: u64,
+    ) -> Result<(Fitted<R>, Self), ForRobotError> {
+        let robot = fitted(measures, robot, CORRIDOR_WIDTH)?;
+        let ring = robot.made_for().ring;
+        let diameter = ROBOT_UNIT.max(measures.diameter / robot.metre());
+        let layers = Stack::paper(ring, diameter, CORRIDOR_WIDTH)?;
+        Ok((robot, Self::seeded(made(ring, diameter), layers, seed)))
     }
 
     /// Returns `brain`, whose actions `drive` carries out. The layers see [what the brain
@@ -229,5 +263,53 @@ where
 
     fn words(&self) -> String {
         self.brain.words()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use core::convert::Infallible;
+
+    use tolman_robot::{Landmark, LaserMeasures, LaserSensing};
+
+    use super::*;
+    use crate::baselines::Random;
+
+    struct Still(LaserSensing);
+
+    impl Robot for Still {
+        type Command = TurnTranslate;
+        type Sensing = LaserSensing;
+        type Error = Infallible;
+
+        fn sensing(&self) -> &LaserSensing {
+            &self.0
+        }
+
+        fn step(&mut self, _: &TurnTranslate) -> Result<(), Infallible> {
+            Ok(())
+        }
+    }
+
+    impl SensesLandmarks for Still {
+        fn landmark(&self) -> Option<Landmark> {
+            None
+        }
+    }
+
+    #[test]
+    fn a_robot_that_fills_its_corridors_is_wide_to_its_brain() {
+        for (corridor, expected) in [(1.5, 1.9 / 1.5), (1.9, 1.0), (3.0, 1.0)] {
+            let laser = LaserMeasures::all_round(72, 0.0, 10.0);
+            let measures = RobotMeasures::new(0.3, 0.3 * corridor, laser);
+            let mut told = 0.0;
+            let brain = |_, diameter| {
+                told = diameter / ROBOT_UNIT;
+                Random
+            };
+            let robot = Still(LaserSensing::silent(laser.ring()));
+            Actor::for_robot(brain, &measures, robot, 1).unwrap();
+            assert!((told - expected).abs() < 1e-9, "{corridor}: {told}");
+        }
     }
 }

@@ -1,10 +1,13 @@
+use core::f64::consts::PI;
+
 use tolman_control::{HeadingFilter, HeadingReadings};
 use tolman_robot::{
-    Bumps, Clock, Compass, Guess, Landmark, LaserSensing, MapView, Mapper, Ranges, Robot, Rolls,
-    SensesLandmarks, Standing, System, Task, TurnTranslate, VisitNaming,
+    Bumps, Clock, Compass, Fitted, Guess, Landmark, LaserSensing, MapView, Mapper, Ranges, Ring,
+    Robot, RobotMeasures, Rolls, SensesLandmarks, Standing, System, Task, TurnTranslate,
+    VisitNaming,
 };
 
-use crate::{Actor, ActorError, Brain, OfStep};
+use crate::{Actor, ActorError, Brain, ForRobotError, LaserRobot, OfStep, OnRobot};
 
 /// An [`Actor`] that needs no compass: its heading is [its own](HeadingFilter), from wheels and
 /// walls. A compass or a gyro only helps.
@@ -34,6 +37,23 @@ impl<B: Brain> OwnHeading<B> {
             filter: HeadingFilter::new(compass_sd),
             has_looked: false,
         }
+    }
+
+    /// Returns the brain that `made` returns for a ring and a diameter, on a robot of these
+    /// measures, as [`Actor::for_robot`] does; but it needs no compass.
+    ///
+    /// # Errors
+    /// If the measures contradict each other.
+    pub fn for_robot<R: LaserRobot>(
+        made: impl FnOnce(Ring, f64) -> B,
+        measures: &RobotMeasures,
+        robot: R,
+        seed: u64,
+    ) -> Result<OnRobot<Fitted<R>, Self>, ForRobotError> {
+        let (robot, actor) = Actor::fitted(made, measures, robot, seed)?;
+        let metre = robot.metre();
+        let system = Self::new(actor, measures.compass_error.unwrap_or(PI));
+        Ok(OnRobot::new(robot, system, metre))
     }
 
     /// Returns the brain.

@@ -16,7 +16,7 @@ use tolman_systems::AnyOnRobot;
 use super::wire::{Message, NamedTask, Question, Wire, WireError};
 use crate::BoxError;
 use crate::contest::Claim;
-use crate::registry::{AnyRobot, RobotFailure, SystemEntry, SystemFacts};
+use crate::registry::{RobotFailure, SystemEntry, SystemFacts};
 use crate::run::TaskEnd;
 
 /// Version of the protocol that a [`Service`] speaks.
@@ -119,11 +119,12 @@ impl Service {
             landmark: None,
         };
         let facts = system.facts();
-        let pilot = system.for_robot(&measures, Box::new(body) as AnyRobot, seed);
-        let pilot = pilot.map_err(|source| ServiceError::Unfit {
+        let unfit = |source| ServiceError::Unfit {
             system: facts.name,
             source,
-        })?;
+        };
+        let put = facts.for_robot.map_err(|why| unfit(why.into()))?;
+        let pilot = put(&measures, Box::new(body), seed).map_err(|error| unfit(error.into()))?;
         let hello = json!({ "hello": { "protocol": PROTOCOL, "system": facts.name } });
         line.borrow_mut().wire.say(&hello)?;
         Ok(Self {

@@ -1,11 +1,9 @@
 use core::fmt;
 
 use tolman_maze::Maze;
-use tolman_robot::RobotMeasures;
-use tolman_systems::AnyOnRobot;
 
 use super::view_file::ViewFile;
-use super::{AnyRobot, LearnedMap, MapText, RobotEntry, RobotKind, Setup};
+use super::{ForRobot, LearnedMap, MapText, RobotEntry, RobotKind, Setup};
 use crate::cast::Agent;
 use crate::contest::PlaceRule;
 use crate::{BoxError, Outing};
@@ -41,6 +39,9 @@ pub struct SystemFacts {
     pub log_mapper: Option<LogMapper>,
     /// Reason why the system cannot map a log, in a sentence without a full stop.
     pub why_no_log: &'static str,
+    /// Puts it on any robot with a laser, by its measures alone; or the reason why it cannot be, in
+    /// a sentence without a full stop.
+    pub for_robot: Result<ForRobot, &'static str>,
     /// Maps by which it drives to the goal.
     pub drives: DrivesBy,
     /// Whether being done means that it claims its map is that of the whole world.
@@ -74,6 +75,7 @@ impl SystemFacts {
             baseline: None,
             log_mapper: None,
             why_no_log: "it learns from actions, which a log does not name",
+            for_robot: Err("it is not made for any robot with a laser"),
             drives: DrivesBy::OwnMap,
             claims: true,
             tried: false,
@@ -155,20 +157,6 @@ pub trait SystemEntry: Sync {
     /// If maps, maze, start or settings do not fit.
     fn driver(&self, _maps: &[MapText], _setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
         Err(format!("{} does not drive by a map", self.name()).into())
-    }
-
-    /// Returns the system on a robot of these measures. All random
-    /// numbers follow from `seed`. The default implementation refuses.
-    ///
-    /// # Errors
-    /// If the system does not drive such robots, or the measures do not suit it.
-    fn for_robot(
-        &self,
-        _measures: &RobotMeasures,
-        _robot: AnyRobot,
-        _seed: u64,
-    ) -> Result<Box<dyn AnyOnRobot>, BoxError> {
-        Err("it does not drive a robot with a laser by its measures alone".into())
     }
 
     /// Returns the learned map in a file. The default implementation reads places and links, as

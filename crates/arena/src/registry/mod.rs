@@ -17,7 +17,7 @@ mod start;
 mod systems;
 mod view_file;
 
-pub use any_robot::{AnyRobot, RobotFailure};
+pub use any_robot::{AnyRobot, ForRobot, RobotFailure};
 pub use entry::{DemoWorld, DrivesBy, LogMapper, SystemEntry, SystemFacts};
 pub use learned_map::{LearnedMap, MapText};
 pub use list::{Registry, slug};

@@ -6,7 +6,7 @@ use core::cell::RefCell;
 use tolman_arena::Simulated;
 use tolman_arena::course::Course;
 use tolman_arena::pioneer::{CORRIDOR_WIDTH, calibrated, with_sensor_noise};
-use tolman_arena::registry::{AnyRobot, Registry, RobotFailure, SystemEntry};
+use tolman_arena::registry::{Registry, RobotFailure, SystemEntry};
 use tolman_geom::Pose;
 use tolman_robot::{
     Landmark, LaserMeasures, LaserSensing, MapView, Robot, RobotMeasures, SensesLandmarks,
@@ -15,15 +15,6 @@ use tolman_robot::{
 use tolman_sim::robots::LaserPioneer;
 
 const FORKS: &str = include_str!("../../../../mazes/forks.maze");
-
-/// Systems that need no other sense than a laser, a compass and odometry.
-const ABLE: [&str; 5] = [
-    "mslst",
-    "mslst-better",
-    "cpm-better",
-    "diktiometry",
-    "diktiometry-better",
-];
 
 /// A simulated robot, of which the test sees the path. All lengths that it senses are `size` times
 /// as large: so are its world and its body.
@@ -89,8 +80,8 @@ fn explored(system: &dyn SystemEntry, size: f64) -> (Vec<Pose>, MapView) {
         size,
         sensing,
     };
-    let pilot = system.for_robot(&measures, Box::new(magnified) as AnyRobot, 3);
-    let mut pilot = pilot.unwrap();
+    let put = system.facts().for_robot.unwrap();
+    let mut pilot = put(&measures, Box::new(magnified), 3).unwrap();
     for _ in 0..ACTIONS {
         pilot.act(Task::Explore).unwrap();
     }
@@ -103,13 +94,16 @@ const ACTIONS: u32 = 60;
 
 #[test]
 fn a_world_and_a_robot_scaled_by_a_power_of_two_make_the_same_run() {
-    for name in ABLE {
-        let system = Registry::current().system(name).unwrap();
-        let (path, map) = explored(system, 1.0);
+    let systems = Registry::current().systems.iter();
+    let able: Vec<_> = systems.filter(|it| it.facts().for_robot.is_ok()).collect();
+    assert_eq!(able.len(), 9);
+    for system in able {
+        let name = system.name();
+        let (path, map) = explored(*system, 1.0);
         assert!(path.len() > ACTIONS as usize, "{name} moves");
         for size in [0.125, 0.5, 4.0] {
             let told = format!("{name}, {size} times as large");
-            let (scaled_path, scaled_map) = explored(system, size);
+            let (scaled_path, scaled_map) = explored(*system, size);
             // To the bit: a robot that turns or rolls otherwise by one bit is elsewhere.
             assert!(path == scaled_path, "{told}");
             assert_eq!(map.links, scaled_map.links, "{told}");

@@ -74,8 +74,8 @@ fn learned(told: Told, seed: u64) -> (usize, usize, Option<String>) {
         sensing,
     };
     let system = Registry::current().system("mslst-better").unwrap();
-    let pilot = system.for_robot(&measures, Box::new(robot) as AnyRobot, seed);
-    let mut pilot = pilot.unwrap();
+    let put = system.facts().for_robot.unwrap();
+    let mut pilot = put(&measures, Box::new(robot) as AnyRobot, seed).unwrap();
     for _ in 0..ACTIONS {
         if pilot.act(Task::Explore).unwrap() != Standing::UnderWay {
             break;

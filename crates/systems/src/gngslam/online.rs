@@ -9,15 +9,16 @@ use tolman_control::wander::{LegEnd, TurnByEnd, UntilNear, UntilNearConfig};
 use tolman_geom::{Point, Pose};
 use tolman_maps::place_graph::{PlaceGraph, PlaceGraphConfig, PlaceGraphError, SeenThere};
 use tolman_robot::{
-    Goal, Guess, Landmark, MapView, Mapper, Odometry, Reckoned, Robot, SensesLandmarks, Soundings,
-    Standing, System, TakesSnapshots, Task,
+    Fitted, Goal, Guess, Landmark, MadeFor, MapView, Mapper, Odometry, Reckoned, Ring, Robot,
+    RobotMeasures, SensesLandmarks, Soundings, Standing, System, TakesSnapshots, Task,
 };
 
 use super::frontier::{Lane, frontiers, ways_on};
 use super::route::{Obstacles, Route, Target};
 use super::sighting::amid;
 use super::{LandmarkSighting, SnapshotRobot};
-use crate::stream;
+use crate::on_robot::{needed, pioneer};
+use crate::{ForRobotError, LaserRobot, OnRobot, stream};
 
 /// Parameters by which an [`OnlineSlam`] moves and maps.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -69,6 +70,16 @@ impl OnlineSlamConfig {
             give_way: 0.8,
             map: PlaceGraphConfig::indoors(),
         }
+    }
+
+    /// Returns our values for a robot with a laser that rolls `translate_per_step` metres in a time
+    /// step by the command `translate: 1.0`. It moves as far in a step as the Pioneer 2-DX.
+    #[must_use]
+    pub const fn laser(translate_per_step: f64) -> Self {
+        let mut config = Self::pioneer_2dx();
+        config.drive.translate = 0.04 / translate_per_step;
+        config.drive.turn = 0.1;
+        config
     }
 }
 
@@ -167,7 +178,35 @@ const STEPS_FREE: u32 = 4;
 /// Minimum random turn, rad: what is near ahead is also near at smaller angles.
 const LEAST_TURN: f64 = 0.5;
 
+/// Width of the corridors for which the system is made, m.
+const CORRIDOR_WIDTH: f64 = 1.5;
+
+/// Beams of its laser, and how far they reach at the most, m.
+const LASER: (u32, f64) = (90, 4.0);
+
 impl OnlineSlam {
+    /// Returns a system without a map on a robot of these measures. All random numbers follow from
+    /// `seed`.
+    ///
+    /// # Errors
+    /// If the measures contradict each other, or there is no odometry.
+    pub fn for_robot<R: LaserRobot>(
+        measures: &RobotMeasures,
+        robot: R,
+        seed: u64,
+    ) -> Result<OnRobot<Fitted<R>, Self>, ForRobotError> {
+        needed(measures.odometry_error, "odometry_error")?;
+        let reach = measures.laser.max_range * CORRIDOR_WIDTH / measures.corridor_width;
+        let made_for = MadeFor {
+            ring: Ring::full(LASER.0, LASER.1.min(reach)),
+            ..pioneer(CORRIDOR_WIDTH)
+        };
+        let config = OnlineSlamConfig::laser(made_for.translate_per_step);
+        let robot = Fitted::new(robot, *measures, made_for)?;
+        let metre = robot.metre();
+        Ok(OnRobot::new(robot, Self::new(config, seed), metre))
+    }
+
     /// Returns a system without a map, whose robot has just been put down. `seed` seeds all its
     /// turns.
     #[must_use]

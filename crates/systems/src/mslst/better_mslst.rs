@@ -1,17 +1,16 @@
 use alloc::sync::Arc;
-use core::f64::consts::PI;
 
 use rand::Rng;
-use tolman_control::{RingError, Stack};
+use tolman_control::RingError;
 use tolman_maps::scan_map::ScanChart;
 use tolman_maze::Direction;
 use tolman_robot::{
-    Fitted, Guess, MadeFor, MapView, Mapper, Ring, RobotMeasures, Standing, Task, VisitNaming,
+    Fitted, Guess, MapView, Mapper, Ring, RobotMeasures, Standing, Task, VisitNaming,
 };
 
 use super::better::{BetterConfig, BetterExplorer, BetterMap, BetterNavigator};
-use crate::on_robot::{fitted, needed};
-use crate::{Actor, Brain, Doing, ForRobotError, LaserRobot, OnRobot, OwnHeading, RolledStep};
+use crate::on_robot::needed;
+use crate::{Brain, Doing, ForRobotError, LaserRobot, OnRobot, OwnHeading, RolledStep};
 
 /// The better MSLST as a whole: it explores, makes its map ready, and then navigates.
 ///
@@ -56,13 +55,8 @@ impl BetterMslst {
         let mut config = BetterConfig::pioneer();
         config.odometry_sd = needed(measures.odometry_error, "odometry_error")?;
         config.check()?;
-        let robot = fitted(measures, robot, config.corridor_width)?;
-        let MadeFor { ring, .. } = robot.made_for();
-        let layers = Stack::paper(ring, config.diameter, config.corridor_width)?;
-        let metre = robot.metre();
-        let system = Actor::seeded(Self::new(config, ring), layers, seed);
-        let system = OwnHeading::new(system, measures.compass_error.unwrap_or(PI));
-        Ok(OnRobot::new(robot, system, metre))
+        let made = |ring, diameter| Self::new(BetterConfig { diameter, ..config }, ring);
+        OwnHeading::for_robot(made, measures, robot, seed)
     }
 
     /// Returns the chart of the map so far. O(map).

@@ -2,14 +2,10 @@ use alloc::sync::Arc;
 use core::convert::Infallible;
 
 use rand::Rng;
-use tolman_control::Stack;
 use tolman_maze::Direction;
 use tolman_robot::{Fitted, Guess, MapView, Mapper, RobotMeasures, Standing, Task};
 
-use super::{
-    MslstConfig, MslstMap, Navigator, ROBOT_UNIT, ScanRecorder, States, StatesError, Topology,
-};
-use crate::on_robot::{CORRIDOR_WIDTH, fitted, needed};
+use super::{MslstConfig, MslstMap, Navigator, ScanRecorder, States, StatesError, Topology};
 use crate::{Actor, Brain, Doing, ForRobotError, LaserRobot, OnRobot, TimeStep};
 
 /// MSLST as a whole: it records scans (Phase I), makes states of them and maps their topology
@@ -51,12 +47,8 @@ impl Mslst {
         robot: R,
         seed: u64,
     ) -> Result<OnRobot<Fitted<R>, Actor<Self>>, ForRobotError> {
-        needed(measures.compass_error, "compass_error")?;
-        let robot = fitted(measures, robot, CORRIDOR_WIDTH)?;
-        let layers = Stack::paper(robot.made_for().ring, ROBOT_UNIT, CORRIDOR_WIDTH)?;
-        let metre = robot.metre();
-        let system = Actor::seeded(Self::new(MslstConfig::large(50.0)), layers, seed);
-        Ok(OnRobot::new(robot, system, metre))
+        let made = |_, _| Self::new(MslstConfig::large(50.0));
+        Actor::for_robot(made, measures, robot, seed)
     }
 
     /// Returns a brain with a learned `map`.

@@ -1,7 +1,5 @@
 use serde::{Deserialize, Serialize};
 
-use super::ROBOT_UNIT;
-
 /// Parameters of MSLST.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -41,18 +39,6 @@ impl MslstConfig {
             graph_actions: 8000,
             memory: 8,
             doubt: 8,
-        }
-    }
-
-    /// Returns this configuration for a robot `diameter` m across, above 0, in place of the
-    /// paper's. The threshold is scaled such that it holds for the same scans in diameters of the
-    /// robot.
-    #[must_use]
-    pub const fn on_robot(self, diameter: f64) -> Self {
-        let scale = diameter / ROBOT_UNIT;
-        Self {
-            threshold: self.threshold * scale * scale,
-            ..self
         }
     }
 }

@@ -1,5 +1,10 @@
+use tolman_systems::Actor;
+use tolman_systems::baselines::{AvoidBrain, Random, WallFollow};
+
 use crate::cast::Agent;
-use crate::registry::{Setup, SystemEntry, SystemFacts};
+use crate::pioneer::CORRIDOR_WIDTH;
+use crate::registry::any_robot::any;
+use crate::registry::{ForRobot, Setup, SystemEntry, SystemFacts};
 use crate::{BoxError, Outing};
 
 /// A baseline, which learns no map.
@@ -16,6 +21,7 @@ impl SystemEntry for BaselineEntry {
             learns: false,
             baseline: Some(agent),
             why_no_log: "it learns no map",
+            for_robot: for_robot(agent),
             claims: false,
             ..SystemFacts::new(name)
         }
@@ -25,4 +31,23 @@ impl SystemEntry for BaselineEntry {
         let name = self.name();
         Err(format!("{name} learns no map: see it drive with `tolman run {name}`").into())
     }
+}
+
+fn for_robot(agent: Agent) -> Result<ForRobot, &'static str> {
+    Ok(match agent {
+        Agent::Avoid => |measures, robot, seed| {
+            let brain = |_, _| AvoidBrain::default();
+            any(Actor::for_robot(brain, measures, robot, seed))
+        },
+        Agent::WallFollow => |measures, robot, seed| {
+            let brain = |_, _| WallFollow::new(CORRIDOR_WIDTH);
+            any(Actor::for_robot(brain, measures, robot, seed))
+        },
+        Agent::Random => {
+            |measures, robot, seed| any(Actor::for_robot(|_, _| Random, measures, robot, seed))
+        }
+        Agent::Oracle | Agent::UnlocalizedOracle => {
+            return Err("it is told the maze, and the measures do not give it");
+        }
+    })
 }

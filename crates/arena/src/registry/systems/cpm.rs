@@ -3,20 +3,21 @@ use tolman_draw::Drawing;
 use tolman_geom::Pose;
 use tolman_maps::cpm::{CpMap, JunctionId, PlanLeg, Turn};
 use tolman_maze::Maze;
-use tolman_robot::{Landmark, MapView, RobotMeasures};
+use tolman_robot::{Landmark, MapView};
 use tolman_sim::robots::Epuck;
+use tolman_systems::Origin;
 use tolman_systems::cpm::{
     self, CommonPatterns, CpmConfig, CpmRobot, MapFile, Mode, RingAsEpuck, WalkerConfig,
 };
-use tolman_systems::{AnyOnRobot, Origin};
 
 use crate::course::{Course, Terrain};
 use crate::cpm::{Layout, epuck, epuck_course_on, patience, ring_measures, walker_config};
 use crate::drawing;
 use crate::pioneer::{CORRIDOR_WIDTH, body};
+use crate::registry::any_robot::any;
 use crate::registry::{
-    AnyRobot, DrivesBy, LearnedMap, LogMapper, MapText, Registry, RobotEntry, RobotKind, Setup,
-    SystemEntry, SystemFacts,
+    DrivesBy, LearnedMap, LogMapper, MapText, Registry, RobotEntry, RobotKind, Setup, SystemEntry,
+    SystemFacts,
 };
 use crate::{BoxError, HasSimulated, Outing, Sent};
 
@@ -65,6 +66,9 @@ impl SystemEntry for CpmEntry {
                 about: "turns paths into sequences of common patterns, and reasons about junctions",
                 is_paper: true,
                 presets: &PAPERS_PRESETS,
+                for_robot: Err(
+                    "it learns its patterns in a maze of its own first: give cpm-better",
+                ),
                 ..both
             },
             false => SystemFacts {
@@ -72,6 +76,9 @@ impl SystemEntry for CpmEntry {
                 title: "CPM Better",
                 about: "adds dead reckoning and several hypotheses to common patterns; corridors alone",
                 presets: &PRESETS,
+                for_robot: Ok(|measures, robot, seed| {
+                    any(cpm::Cpm::for_robot(measures, robot, seed))
+                }),
                 log_mapper: Some(LogMapper::Cpm),
                 ..both
             },
@@ -121,20 +128,6 @@ impl SystemEntry for CpmEntry {
         let (walker, patterns) = (ground.walker.clone(), first.patterns.clone());
         let cpm = cpm::Cpm::with_maps(walker, patterns, config, known, setup.seed)?;
         ground.send(setup, mode, cpm)
-    }
-
-    fn for_robot(
-        &self,
-        measures: &RobotMeasures,
-        robot: AnyRobot,
-        seed: u64,
-    ) -> Result<Box<dyn AnyOnRobot>, BoxError> {
-        if self.is_paper {
-            return Err(
-                "it learns its patterns in a maze of its own first: give cpm-better".into(),
-            );
-        }
-        Ok(Box::new(cpm::Cpm::for_robot(measures, robot, seed)?))
     }
 
     fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, BoxError> {

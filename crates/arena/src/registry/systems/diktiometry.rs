@@ -9,12 +9,12 @@ use tolman_maps::diktiometry::{
     Action, Config, DecidingWalk, JournalLength, Link, Observer, OpenPair, PlaceId,
 };
 use tolman_maze::Direction;
-use tolman_robot::{Landmark, MapView, Mapper, RobotMeasures, Task};
+use tolman_robot::{Landmark, MapView, Mapper, Task};
 use tolman_sim::Bounds;
 use tolman_systems::diktiometry::{
     Diktiometer, DiktiometerConfig, ExploreUntil, LandmarkSpot, LaserEye,
 };
-use tolman_systems::{AnyOnRobot, stream};
+use tolman_systems::stream;
 
 use crate::contest::PlaceRule;
 use crate::course::{Course, Terrain};
@@ -23,10 +23,11 @@ use crate::diktiometry::{
 };
 use crate::drawing::diktiometry::{PlaceMark, map_over_world, place_marks};
 use crate::episode::START_STREAM;
+use crate::registry::any_robot::any;
 use crate::registry::view_file::ViewFile;
 use crate::registry::{
-    AnyRobot, DrivesBy, LearnedMap, LogMapper, MapText, RobotEntry, RobotKind, Setup, Start,
-    SystemEntry, SystemFacts, slug,
+    DrivesBy, LearnedMap, LogMapper, MapText, RobotEntry, RobotKind, Setup, Start, SystemEntry,
+    SystemFacts, slug,
 };
 use crate::{BoxError, Founding, Outing, Sent};
 
@@ -117,6 +118,9 @@ impl SystemEntry for DiktiometryEntry {
                 title: "Diktiometry",
                 about: "maps places with bounds on where they lie, and advises the planner",
                 is_paper: true,
+                for_robot: Ok(|measures, robot, seed| {
+                    any(Diktiometer::for_robot(measures, robot, true, seed))
+                }),
                 ..both
             },
             false => SystemFacts {
@@ -124,6 +128,9 @@ impl SystemEntry for DiktiometryEntry {
                 title: "Diktiometry Better",
                 about: "maps places that look alike, with a journal of all its moves, and advises the planner",
                 log_mapper: Some(LogMapper::Diktiometry),
+                for_robot: Ok(|measures, robot, seed| {
+                    any(Diktiometer::for_robot(measures, robot, false, seed))
+                }),
                 ..both
             },
         }
@@ -182,20 +189,6 @@ impl SystemEntry for DiktiometryEntry {
         Ok(Box::new(
             sent.laid_at(Pose::new(surveyed.start, Heading::EAST)),
         ))
-    }
-
-    fn for_robot(
-        &self,
-        measures: &RobotMeasures,
-        robot: AnyRobot,
-        seed: u64,
-    ) -> Result<Box<dyn AnyOnRobot>, BoxError> {
-        Ok(Box::new(Diktiometer::for_robot(
-            measures,
-            robot,
-            self.is_paper,
-            seed,
-        )?))
     }
 
     fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, BoxError> {

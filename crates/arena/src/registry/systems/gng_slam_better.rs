@@ -13,6 +13,7 @@ use crate::drawing::places_over_world;
 use crate::gngslam::LaidOver;
 use crate::outing::moved;
 use crate::pioneer::body;
+use crate::registry::any_robot::any;
 use crate::registry::{
     DemoWorld, DrivesBy, LearnedMap, LogMapper, MapText, Registry, RobotEntry, RobotKind, Setup,
     SystemEntry, SystemFacts,
@@ -56,6 +57,9 @@ impl SystemEntry for GngSlamBetterEntry {
             presets: &PRESETS,
             arena_preset: Some(BY_CHANCE),
             log_mapper: Some(LogMapper::PlaceGraph),
+            for_robot: Ok(|measures, robot, seed| {
+                any(OnlineSlam::for_robot(measures, robot, seed))
+            }),
             drives: DrivesBy::AnyMap,
             claims: false,
             tried: true,
@@ -109,13 +113,10 @@ impl SystemEntry for GngSlamBetterEntry {
 
 /// Returns our usual configuration for a robot.
 fn usual(robot: &RobotEntry) -> OnlineSlamConfig {
-    let mut config = OnlineSlamConfig::pioneer_2dx();
-    if robot.kind().can_be(RobotKind::Laser) {
-        // The same distance and turn per time step as the Pioneer 2-DX.
-        config.drive.translate = 0.04 / robot.laser_config().translate_per_step;
-        config.drive.turn = 0.1;
+    match robot.kind().can_be(RobotKind::Laser) {
+        true => OnlineSlamConfig::laser(robot.laser_config().translate_per_step),
+        false => OnlineSlamConfig::pioneer_2dx(),
     }
-    config
 }
 
 fn body_of(kind: RobotKind) -> Body {

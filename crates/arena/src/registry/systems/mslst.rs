@@ -2,16 +2,15 @@ use alloc::sync::Arc;
 
 use serde_json::{Value, json};
 use tolman_draw::Drawing;
-use tolman_robot::{MapView, RobotMeasures};
+use tolman_robot::MapView;
+use tolman_systems::Actor;
 use tolman_systems::mslst::{self, GrowthRecord, Learned, MapFile, MslstConfig};
-use tolman_systems::{Actor, AnyOnRobot};
 
 use crate::course::{Course, Terrain};
 use crate::drawing::mslst::whole_graph_over_maze;
 use crate::pioneer::body;
-use crate::registry::{
-    AnyRobot, DemoWorld, DrivesBy, LearnedMap, MapText, Setup, SystemEntry, SystemFacts,
-};
+use crate::registry::any_robot::any;
+use crate::registry::{DemoWorld, DrivesBy, LearnedMap, MapText, Setup, SystemEntry, SystemFacts};
 use crate::{BoxError, Outing, Sent};
 
 /// [`mslst`] on a laser robot.
@@ -55,6 +54,9 @@ impl SystemEntry for MslstEntry {
             is_paper: true,
             presets: &PRESETS,
             arena_preset: Some(ARENA),
+            for_robot: Ok(|measures, robot, seed| {
+                any(mslst::Mslst::for_robot(measures, robot, seed))
+            }),
             drives: DrivesBy::AnyMap,
             // It is done when it has used up its actions.
             claims: false,
@@ -113,15 +115,6 @@ impl SystemEntry for MslstEntry {
         let sent = Sent::new(course, robot, steps, actor)
             .lying(move |_, _| (0..).zip(sites.iter().copied()).collect());
         Ok(Box::new(sent))
-    }
-
-    fn for_robot(
-        &self,
-        measures: &RobotMeasures,
-        robot: AnyRobot,
-        seed: u64,
-    ) -> Result<Box<dyn AnyOnRobot>, BoxError> {
-        Ok(Box::new(mslst::Mslst::for_robot(measures, robot, seed)?))
     }
 
     fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, BoxError> {

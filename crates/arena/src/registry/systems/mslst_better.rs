@@ -6,10 +6,10 @@ use tolman_draw::Drawing;
 use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::scan_map::{CorridorMap, ScanChart, ScanPlace};
 use tolman_maze::Direction;
-use tolman_robot::{Landmark, MapView, RobotMeasures};
+use tolman_robot::{Landmark, MapView};
 use tolman_systems::mslst::BetterMslst;
 use tolman_systems::mslst::better::{BetterConfig, BetterMap, BetterMapFile, BetterNavigator};
-use tolman_systems::{Actor, AnyOnRobot, OwnHeading};
+use tolman_systems::{Actor, OwnHeading};
 
 use crate::course::Terrain;
 use crate::drawing::places_over_world;
@@ -17,9 +17,9 @@ use crate::gngslam::LaidOver;
 use crate::mslst::better_config;
 use crate::outing::moved;
 use crate::pioneer::body;
+use crate::registry::any_robot::any;
 use crate::registry::{
-    AnyRobot, DemoWorld, DrivesBy, LearnedMap, MapText, RobotEntry, Setup, SystemEntry,
-    SystemFacts, because,
+    DemoWorld, DrivesBy, LearnedMap, MapText, RobotEntry, Setup, SystemEntry, SystemFacts, because,
 };
 use crate::{BoxError, Founding, Outing, Sent};
 
@@ -39,6 +39,9 @@ impl SystemEntry for MslstBetterEntry {
             about: "draws walls from laser scans, explores where its map has gaps, and navigates by a belief over where it can stand",
             own_robot: RobotEntry::NOISY_PIONEER.name,
             presets: &PRESETS,
+            for_robot: Ok(|measures, robot, seed| {
+                any(BetterMslst::for_robot(measures, robot, seed))
+            }),
             drives: DrivesBy::AnyMap,
             demo: (DemoWorld::Large, 8),
             ..SystemFacts::new("mslst-better")
@@ -94,15 +97,6 @@ impl SystemEntry for MslstBetterEntry {
             Some(laid) => sent.laid_at(laid.world_from_map),
             None => sent,
         }))
-    }
-
-    fn for_robot(
-        &self,
-        measures: &RobotMeasures,
-        robot: AnyRobot,
-        seed: u64,
-    ) -> Result<Box<dyn AnyOnRobot>, BoxError> {
-        Ok(Box::new(BetterMslst::for_robot(measures, robot, seed)?))
     }
 
     fn map(&self, map: &MapText) -> Result<Box<dyn LearnedMap>, BoxError> {

@@ -22,6 +22,7 @@ impl SystemEntry for WallBeliefEntry {
             about: "believes in walls, as a noisy micromouse, and knows where it is by particles",
             needs: "needs a laser ring and encoders",
             why_no_log: WALLS,
+            for_robot: Err("it is told the maze's size, and the measures do not give it"),
             ..SystemFacts::new("wall-belief")
         }
     }
