@@ -21,8 +21,8 @@ use Job::{Golden, Static, Tests, Thorough};
 
 use crate::workspace::{self, built, cargo, installed, succeed};
 use crate::{
-    board, docs, fuzz, golden, layers, mazes, mujoco, mutants, packages, playground, prose, python,
-    rerun, site,
+    board, docs, fuzz, golden, layers, mazes, mouse_c, mujoco, mutants, packages, playground,
+    prose, python, rerun, site,
 };
 
 /// Outcome of a step that did not fail.
@@ -86,6 +86,7 @@ const STEPS: &[Step] = &[
     }),
     ("bare metal", Golden, bare_metal::check),
     ("board", Golden, board::check),
+    ("c", Golden, mouse_c::check),
     // The lints of the compiler that the tests use.
     ("new lints", Thorough, || {
         passes("clippy --workspace --all-features --all-targets --quiet -- --deny warnings")

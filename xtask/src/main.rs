@@ -16,6 +16,7 @@ mod fuzz;
 mod golden;
 mod layers;
 mod mazes;
+mod mouse_c;
 mod mujoco;
 mod mutants;
 mod packages;
@@ -76,6 +77,8 @@ enum Verb {
     },
     /// Runs the mouse on an emulated chip, and tells the memory and the time that it needs
     Board,
+    /// Compares the header of the mouse for C with its code, and lets programs in C explore mazes
+    C,
     /// Checks that comments keep to 100 columns, and that comments, messages and pages use plain
     /// words
     Prose,
@@ -145,6 +148,7 @@ fn main() -> ExitCode {
         Verb::Mazes => mazes::run(),
         Verb::Bench { name } => bench::run(name.as_deref()),
         Verb::Board => alone(board::check()),
+        Verb::C => alone(mouse_c::check()),
         Verb::Prose => prose::run(),
         Verb::Dist => dist::run().map(drop),
         Verb::Release { dry_run: _ } => release::run(),

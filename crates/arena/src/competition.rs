@@ -20,12 +20,15 @@
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 
-use tolman_maze::{Cell, Direction, Maze};
-use tolman_planners::speed_run::{SpeedRunConfig, SpeedRunTimes};
+use tolman_maze::{Cell, Direction, Maze, Walls};
+use tolman_planners::speed_run::{
+    Decision, Extent, RunState, SpeedRunConfig, SpeedRunExplorer, SpeedRunMap, SpeedRunTimes,
+};
+use tolman_planners::{Passages, Unknown};
 use tolman_robot::Standing;
 use tolman_systems::micromouse::Brief;
 use tolman_systems::micromouse::competition::{
-    CompetitionMouse, CompetitionNext, ExploreError, SpeedRunExploration,
+    CompetitionMouse, CompetitionNext, ExploreError, RunLeg, SpeedRunExploration,
 };
 
 use crate::run::within;
@@ -84,6 +87,53 @@ fn explore_within<const N: usize>(
         }
     })?;
     found.ok_or(ExploreError::NoWay { at })
+}
+
+/// Plan of a mouse in a maze that it knows in part.
+#[derive(Clone, Debug)]
+pub struct HalfKnown {
+    /// Moves of the best run through walls that are known to be open; empty if there is none.
+    pub known: Vec<RunLeg>,
+    /// Duration of the best run if all unknown walls were open, ms; `None` if no way is left.
+    pub possible_ms: Option<u32>,
+    /// Decision of a mouse that stands at the start.
+    pub next: Decision,
+}
+
+/// Returns the best run through what is known of a maze, and where a mouse at its start would look
+/// next.
+///
+/// # Errors
+/// If the maze is larger than 32 × 32 or the mouse's parameters are invalid.
+pub fn half_known(
+    walls: &impl Walls,
+    (start, heading): (Cell, Direction),
+    goals: &[Cell],
+    config: &SpeedRunConfig,
+) -> Result<HalfKnown, ExploreError> {
+    let times = SpeedRunTimes::<32>::new(config)?;
+    let state = RunState::Straight {
+        cell: start,
+        heading,
+    };
+    let mut map = SpeedRunMap::<32>::new();
+    let hoped = Passages::new(walls, Unknown::Open)?;
+    map.search(&hoped, &times, goals, Extent::Until(state));
+    let possible_ms = map.time_ms(state);
+    let known = Passages::new(walls, Unknown::Closed)?;
+    map.search(&known, &times, goals, Extent::Until(state));
+    let legs = map.run(&known, &times, state).map(|step| RunLeg {
+        step,
+        time_ms: times.of(step.run_move).unwrap_or(0),
+    });
+    let known = legs.collect();
+    let mut explorer = SpeedRunExplorer::<32>::new(&times, start, heading, goals);
+    let next = explorer.decide(walls, start, heading)?;
+    Ok(HalfKnown {
+        known,
+        possible_ms,
+        next,
+    })
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
-use tolman_maps::wall_map::{CellRay, ClosedCells, TooLarge, WallMap};
+use tolman_maps::wall_map::{CellRay, ClosedCells, ObserveError, TooLarge, WallMap};
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
-use tolman_planners::speed_run::{Decision, RunStep, SpeedRunExplorer, SpeedRunTimes};
+use tolman_planners::speed_run::{CellTimes, Decision, RunStep, SpeedRunExplorer, SpeedRunTimes};
 use tolman_planners::{Passages, PoseKnowledge, PoseSet, Unknown};
 
-/// Number of columns and of rows of the maze, as in the classic competition.
+/// Number of columns and of rows of a classic maze.
 pub const MAZE: usize = 16;
 
 /// Maximum number of walls that a lost mouse can forget.
@@ -36,35 +36,28 @@ const START: (Cell, Direction) = (Cell::new(0, 0), Direction::North);
 /// # Ok::<(), tolman_maps::wall_map::TooLarge>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Mouse<'a> {
-    walls: WallMap<MAZE, LOG>,
+pub struct Mouse<'a, const N: usize = MAZE, C: CellTimes = [u16; 16]> {
+    walls: WallMap<N, LOG>,
     /// Whether walls may be wrong: this is the first map, or the mouse was lost since it began it.
     is_doubtful: bool,
-    explorer: SpeedRunExplorer<'a, MAZE>,
-    place: Place,
+    explorer: SpeedRunExplorer<'a, N, C>,
+    place: Place<N>,
 }
 
 /// Knowledge of where the mouse is.
 #[derive(Clone, Debug)]
 #[expect(clippy::large_enum_variant, reason = "there is no heap to put it on")]
-enum Place {
+enum Place<const N: usize> {
     Known {
         cell: Cell,
         heading: Direction,
     },
     Lost {
-        poses: PoseSet<MAZE>,
+        poses: PoseSet<N>,
         /// Number of cells that the mouse may still drive to find its place.
         patience: u8,
     },
 }
-
-/// The map of a maze that the mouse has never seen.
-const UNSEEN: WallMap<MAZE, LOG> =
-    match WallMap::new(Grid::new(MAZE as u16, MAZE as u16), ClosedCells::Possible) {
-        Ok(map) => map,
-        Err(_) => panic!("the map is as large as the maze"),
-    };
 
 /// Reading of the wall sensors: which sides of the cell are open.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,7 +78,7 @@ pub enum Command {
     /// Stay: the mouse is back at the start and knows the fastest run.
     Ready {
         /// Duration of the fastest run, ms.
-        run_ms: u16,
+        run_ms: u32,
     },
     /// Stay: the known walls do not determine the mouse's place, or fit its readings nowhere. Carry
     /// it back to the start, where it begins a new map.
@@ -96,11 +89,27 @@ pub enum Command {
 }
 
 impl<'a> Mouse<'a> {
-    /// Returns a mouse at the start of a maze that it has never seen.
+    /// Returns a mouse at the start of a classic maze that it has never seen.
     #[must_use]
     pub const fn new(times: &'a SpeedRunTimes<MAZE>, goals: &'a [Cell]) -> Self {
+        Self::with_memory(times, goals)
+    }
+}
+
+impl<'a, const N: usize, C: CellTimes> Mouse<'a, N, C> {
+    /// The map of a maze that the mouse has never seen.
+    const UNSEEN: WallMap<N, LOG> =
+        match WallMap::new(Grid::new(N as u16, N as u16), ClosedCells::Possible) {
+            Ok(map) => map,
+            Err(_) => panic!("the map is as large as the maze"),
+        };
+
+    /// Returns a mouse at the start of a maze of `N` × `N` cells that it has never seen, which
+    /// keeps the times of runs in [`CellTimes`] of its own.
+    #[must_use]
+    pub const fn with_memory(times: &'a SpeedRunTimes<N>, goals: &'a [Cell]) -> Self {
         Self {
-            walls: UNSEEN,
+            walls: Self::UNSEEN,
             is_doubtful: true,
             explorer: SpeedRunExplorer::new(times, START.0, START.1, goals),
             place: Place::Known {
@@ -179,7 +188,7 @@ impl<'a> Mouse<'a> {
 
     /// Forgets all walls, because some are wrong or do not tell where the mouse is.
     fn begin_again(&mut self) -> Command {
-        self.walls = UNSEEN;
+        self.walls = Self::UNSEEN;
         self.is_doubtful = false;
         self.found_at(START.0, START.1);
         Command::CarryBack
@@ -209,6 +218,39 @@ impl<'a> Mouse<'a> {
         self.found_at(START.0, START.1);
     }
 
+    /// Returns the mouse's map, to be saved.
+    #[must_use]
+    pub const fn walls(&self) -> &impl Walls {
+        &self.walls
+    }
+
+    /// Puts the mouse back to the start with a map that was saved: each wall as `known` says.
+    ///
+    /// # Errors
+    /// If the map contradicts itself, which leaves a mouse with no map.
+    pub fn restore(
+        &mut self,
+        known: impl Fn(Cell, Direction) -> Knowledge,
+    ) -> Result<(), ObserveError> {
+        self.walls = Self::UNSEEN;
+        self.is_doubtful = true;
+        self.found_at(START.0, START.1);
+        for cell in self.walls.grid().cells() {
+            for side in Direction::ALL {
+                let ray = match known(cell, side) {
+                    Knowledge::Unknown => continue,
+                    Knowledge::Open => CellRay::out_of_range(side, 1),
+                    Knowledge::Wall => CellRay::to_wall(side, 0),
+                };
+                if let Err(error) = self.walls.observe(cell, &[ray]) {
+                    self.walls = Self::UNSEEN;
+                    return Err(error);
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// Returns whether the mouse looks for its place.
     #[must_use]
     pub const fn is_lost(&self) -> bool {
@@ -228,8 +270,8 @@ impl<'a> Mouse<'a> {
 }
 
 /// Returns the side by which the mouse leaves for a place where the possible poses look different.
-fn look_around(
-    poses: &mut PoseSet<MAZE>,
+fn look_around<const N: usize>(
+    poses: &mut PoseSet<N>,
     patience: &mut u8,
     walls: &impl Walls,
 ) -> Option<Direction> {

@@ -147,7 +147,6 @@ fn search(maze: &Maze, mishap: Mishap, when: &[usize], seed: u64) -> End {
                 let mut moves = 0;
                 mouse.run(|_: RunStep| moves += 1).unwrap();
                 assert!(moves > 0);
-                let run_ms = u32::from(run_ms);
                 return End::Ready { run_ms };
             }
             Command::CarryBack => {

@@ -161,7 +161,7 @@ fn explore<const N: usize>(named: &Named, times: &SpeedRunTimes<N>) -> f64 {
     let Named { maze, start, .. } = named;
     let (home, heading) = *start;
     let mut walls = WallMap::<N>::new(maze.grid(), ClosedCells::Possible).unwrap();
-    let mut explorer = SpeedRunExplorer::new(times, home, heading, maze.goals());
+    let mut explorer = SpeedRunExplorer::<N>::new(times, home, heading, maze.goals());
     let (mut at, mut looks) = (home, heading);
     let mut decisions = Vec::new();
     loop {

@@ -89,8 +89,8 @@ pub use knowledge::{Knowledge, Walls};
 pub use {
     check_error::CheckError,
     formats::{
-        Format, MazeError, MazeFault, MazeFile, UnknownFormat, WriteError, parse, parse_as, read,
-        read_as, write,
+        Format, MazeError, MazeFault, MazeFile, UnknownFormat, WriteError, maz_text, parse,
+        parse_as, read, read_as, write,
     },
     generators::{Braided, GenerateError, Hook, OneLoop, Perfect, Rooms, drawings},
     maze::Maze,

@@ -197,6 +197,49 @@ impl Maze {
             / 2
     }
 
+    /// Returns the maze turned by a quarter clockwise.
+    #[must_use]
+    pub fn rotated(&self) -> Self {
+        let side = self.grid.width() - 1;
+        let grid = Grid::new(self.grid.height(), self.grid.width());
+        self.moved(
+            grid,
+            |cell| Cell::new(cell.y, side - cell.x),
+            Direction::right,
+        )
+    }
+
+    /// Returns the maze mirrored, west to east.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let side = self.grid.width() - 1;
+        let turned = |direction: Direction| match direction {
+            Direction::East | Direction::West => direction.opposite(),
+            other => other,
+        };
+        self.moved(self.grid, |cell| Cell::new(side - cell.x, cell.y), turned)
+    }
+
+    /// Returns the maze with every cell in its new place and every direction turned.
+    fn moved(
+        &self,
+        grid: Grid,
+        place: impl Fn(Cell) -> Cell,
+        turn: impl Fn(Direction) -> Direction,
+    ) -> Self {
+        let mut moved = Self::open(grid);
+        for cell in self.grid.cells() {
+            for direction in Direction::ALL {
+                moved.set_wall(place(cell), turn(direction), !self.is_open(cell, direction));
+            }
+        }
+        moved.start = self
+            .start
+            .map(|(cell, heading)| (place(cell), turn(heading)));
+        moved.set_goals(self.goals.iter().copied().map(place).collect());
+        moved
+    }
+
     /// Returns the start cell and the heading of the robot there, if the maze has a start.
     #[must_use]
     pub const fn start(&self) -> Option<(Cell, Direction)> {

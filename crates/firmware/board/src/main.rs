@@ -94,7 +94,7 @@ fn explore(
     mouse: &mut Mouse<'_>,
     body: &mut Body,
     carried: Option<u32>,
-) -> Option<(u16, u32, Worst)> {
+) -> Option<(u32, u32, Worst)> {
     let mut worst = Worst::default();
     for cells in 0..5000 {
         let seen = body.look();
@@ -130,7 +130,7 @@ fn trial(
     times: &SpeedRunTimes<16>,
     maze: usize,
     carried: Option<u32>,
-) -> Option<u16> {
+) -> Option<u32> {
     let (name, goals, open) = MAZES.get(maze)?;
     let mut mouse = Mouse::new(times, goals);
     let mut body = Body {

@@ -1,15 +1,16 @@
 //! The drawing of posts and walls that the `mazefiles` collection, mms and tolman's own files
 //! share.
 
+use alloc::string::{String, ToString};
 use alloc::vec;
 use alloc::vec::Vec;
 use core::fmt;
 
 use super::lines::{Line, Lines, Place};
-use super::{MazeError, MazeFault, Parsed};
-use crate::{Cell, CheckError, Direction, Grid, Maze};
+use super::{MazeError, MazeFault, MazeFile, Parsed, edge};
+use crate::{Cell, CheckError, Direction, Grid, Knowledge, Maze};
 
-/// Number of characters from one post to the next.
+/// Number of characters from one post to the next in drawings that are written.
 const PITCH: usize = 4;
 
 /// Returns whether a drawing begins with this line, which has no blanks before it. Double borders
@@ -31,16 +32,6 @@ fn begins_wall(text: &str) -> bool {
             .is_some_and(|rest| rest.starts_with('-'))
 }
 
-/// Returns the column of characters of the post to the west of a cell's column.
-const fn post(column: u16) -> usize {
-    column as usize * PITCH
-}
-
-/// Returns the column of characters of the middle of a cell's column.
-const fn middle(column: u16) -> usize {
-    post(column) + PITCH / 2
-}
-
 /// Reads a drawing from its first line on, which `lines` must be about to give.
 ///
 /// The drawing ends before the first line that starts with neither a post, a wall nor a blank; that
@@ -50,6 +41,7 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
     let Some((first, others)) = rows.split_first() else {
         return Err(MazeError::at_start(MazeFault::Empty));
     };
+    let pitch = first.pitch;
     let width = width(first);
     let side = |side: usize| {
         let small = u16::try_from(side).ok();
@@ -63,7 +55,12 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
             // No remark stands within a row.
             Some(line) => {
                 let indent = first.indent.min(line.text.len());
-                Row { line, indent }.unexpected(0, "a post, `|` or a blank at the west border")
+                Row {
+                    line,
+                    indent,
+                    pitch,
+                }
+                .unexpected(0, "a post, `|` or a blank at the west border")
             }
             None => (last.line).fault(0, MazeFault::Unfinished { lines: rows.len() }),
         });
@@ -74,6 +71,7 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
         places: vec![Place::default(); grid.cell_count()],
         start: None,
         goals: Vec::new(),
+        unknown: Vec::new(),
     };
     // Row y of the cells is line 2 · (height - 1 - y) + 1; the posts to its north are the line
     // before.
@@ -91,10 +89,14 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
         .maze
         .set_start(reader.start.map(|cell| (cell, Direction::North)));
     reader.maze.set_goals(reader.goals);
-    Ok(Parsed {
+    let mut parsed = Parsed {
         begin: first.place(0),
         ..Parsed::new(reader.maze, reader.places)
-    })
+    };
+    reader.unknown.sort_unstable();
+    reader.unknown.dedup();
+    parsed.file.unknown = reader.unknown;
+    Ok(parsed)
 }
 
 /// Part of a drawing read so far.
@@ -103,6 +105,7 @@ struct Reader {
     places: Vec<Place>,
     start: Option<Cell>,
     goals: Vec<Cell>,
+    unknown: Vec<(Cell, Direction)>,
 }
 
 impl Reader {
@@ -110,11 +113,11 @@ impl Reader {
     fn posts(&mut self, row: &Row<'_>, y: u16, side: Direction) -> Result<(), MazeError> {
         let width = self.maze.grid().width();
         for x in 0..width {
-            row.post(x)?;
+            row.expect_post(x)?;
             let stands = row.horizontal(x)?;
             self.wall(row, Cell::new(x, y), side, stands)?;
         }
-        row.post(width)?;
+        row.expect_post(width)?;
         row.nothing_beyond(width)
     }
 
@@ -125,9 +128,9 @@ impl Reader {
             let cell = Cell::new(x, y);
             self.wall(row, cell, Direction::West, row.vertical(x)?)?;
             if let Some(place) = self.places.get_mut(grid.index(cell)) {
-                *place = row.place(middle(x));
+                *place = row.place(row.middle(x));
             }
-            for offset in middle(x) - 1..=middle(x) + 1 {
+            for offset in row.post(x) + 1..row.post(x + 1) {
                 match row.char(offset) {
                     ' ' => {}
                     'S' | 's' => {
@@ -154,20 +157,43 @@ impl Reader {
         row: &Row<'_>,
         cell: Cell,
         direction: Direction,
-        stands: bool,
+        knowledge: Knowledge,
     ) -> Result<(), MazeError> {
+        let stands = knowledge == Knowledge::Wall;
         if !stands && self.maze.grid().neighbour(cell, direction).is_none() {
             let offset = match direction {
-                Direction::North | Direction::South => middle(cell.x),
-                Direction::West => post(cell.x),
-                Direction::East => post(cell.x + 1),
+                Direction::North | Direction::South => row.middle(cell.x),
+                Direction::West => row.post(cell.x),
+                Direction::East => row.post(cell.x + 1),
             };
             let fault = MazeFault::Maze(CheckError::OpenBorder { cell, direction });
             return Err(row.fault(offset, fault));
         }
         self.maze.set_wall(cell, direction, stands);
+        if knowledge == Knowledge::Unknown {
+            self.unknown.push(edge(cell, direction));
+        }
         Ok(())
     }
+}
+
+/// Returns the drawing of a maze, with a `.` for each unknown wall.
+pub(super) fn text(file: &MazeFile) -> String {
+    let mut text = file.maze.to_string();
+    let grid = file.maze.grid();
+    // Every character of a drawing is one byte.
+    let line = PITCH * usize::from(grid.width()) + 2;
+    for (cell, direction) in &file.unknown {
+        let (x, row) = (usize::from(cell.x), usize::from(grid.height() - 1 - cell.y));
+        let at = match direction {
+            Direction::North => 2 * row * line + x * PITCH + PITCH / 2,
+            _ => (2 * row + 1) * line + (x + 1) * PITCH,
+        };
+        if at < text.len() {
+            text.replace_range(at..=at, ".");
+        }
+    }
+    text
 }
 
 /// Draws `maze`, north first, every line ended by a line feed.
@@ -216,6 +242,8 @@ struct Row<'a> {
     line: Line<'a>,
     /// Number of blanks before the west border.
     indent: usize,
+    /// Number of characters from one post to the next.
+    pitch: usize,
 }
 
 /// Returns the lines that belong to the drawing. All are indented like the first.
@@ -241,31 +269,57 @@ fn rows<'a>(lines: &mut Lines<'a>) -> Result<Vec<Row<'a>>, MazeError> {
         }
         // A remark below the drawing may also begin with an `o`: `begins` looks at the next
         // character.
+        let pitch = rows.first().map_or_else(|| pitch(text), |row| row.pitch);
         if begins(text) || text.starts_with(['|', ' ']) {
-            rows.push(Row { line, indent });
+            rows.push(Row {
+                line,
+                indent,
+                pitch,
+            });
             *lines = ahead;
         } else if rows.is_empty() {
-            return Err(Row { line, indent }.unexpected(0, POST));
+            return Err(Row {
+                line,
+                indent,
+                pitch,
+            }
+            .unexpected(0, POST));
         } else {
             return Ok(rows);
         }
     }
 }
 
+/// Returns the number of characters from the first post of a line to the second.
+fn pitch(first: &str) -> usize {
+    let second = first.chars().skip(1).position(is_post);
+    second.map_or(PITCH, |at| at + 1).max(2)
+}
+
 /// Returns the number of columns for which the first line of a drawing has posts. It is at least
 /// one, so that a fault in the first column is reported at its place.
 fn width(first: &Row<'_>) -> usize {
     (1..)
-        .take_while(|column| is_post(first.char(column * PITCH)))
+        .take_while(|column| is_post(first.char(column * first.pitch)))
         .count()
         .max(1)
 }
 
 const POST: &str = "a post, `o` or `+`, at every corner of a cell";
 
-const HORIZONTAL: &str = "`---` or three blanks between two posts, since a cell is three characters wide, as in `+---+---+`";
+const HORIZONTAL: &str = "`---`, three blanks or ` . ` between two posts, all as far apart as the first two, as in `+---+---+`";
 
 impl Row<'_> {
+    /// Returns the column of characters of the post to the west of a cell's column.
+    const fn post(&self, column: u16) -> usize {
+        column as usize * self.pitch
+    }
+
+    /// Returns the column of characters of the middle of a cell's column.
+    const fn middle(&self, column: u16) -> usize {
+        self.post(column) + self.pitch / 2
+    }
+
     /// Returns the character at `offset`; blanks beyond the end of the line.
     fn char(&self, offset: usize) -> char {
         let bytes = self.line.text.as_bytes();
@@ -305,31 +359,43 @@ impl Row<'_> {
     }
 
     /// Expects the post to the west of `column`.
-    fn post(&self, column: u16) -> Result<(), MazeError> {
-        if is_post(self.char(post(column))) {
+    fn expect_post(&self, column: u16) -> Result<(), MazeError> {
+        if is_post(self.char(self.post(column))) {
             Ok(())
         } else {
-            Err(self.unexpected(post(column), POST))
+            Err(self.unexpected(self.post(column), POST))
         }
     }
 
-    /// Returns whether this line of posts has a wall along `column`.
-    fn horizontal(&self, column: u16) -> Result<bool, MazeError> {
-        let mut offsets = post(column) + 1..post(column + 1);
+    /// Returns what this line of posts says of the wall along `column`.
+    fn horizontal(&self, column: u16) -> Result<Knowledge, MazeError> {
+        let mut offsets = self.post(column) + 1..self.post(column + 1);
+        if offsets.clone().any(|offset| self.char(offset) == '.') {
+            let other = offsets.find(|offset| !matches!(self.char(*offset), '.' | ' '));
+            return other.map_or(Ok(Knowledge::Unknown), |offset| {
+                Err(self.unexpected(offset, HORIZONTAL))
+            });
+        }
         let stands = self.char(offsets.start) == '-';
         let drawn = if stands { '-' } else { ' ' };
         match offsets.find(|offset| self.char(*offset) != drawn) {
-            None => Ok(stands),
+            None => Ok(if stands {
+                Knowledge::Wall
+            } else {
+                Knowledge::Open
+            }),
             Some(offset) => Err(self.unexpected(offset, HORIZONTAL)),
         }
     }
 
-    /// Returns whether this line of cells has a wall to the west of `column`.
-    fn vertical(&self, column: u16) -> Result<bool, MazeError> {
-        match self.char(post(column)) {
-            '|' => Ok(true),
-            ' ' => Ok(false),
-            _ => Err(self.unexpected(post(column), "`|` or a blank between two cells")),
+    /// Returns what this line of cells says of the wall to the west of `column`.
+    fn vertical(&self, column: u16) -> Result<Knowledge, MazeError> {
+        let offset = self.post(column);
+        match self.char(offset) {
+            '|' => Ok(Knowledge::Wall),
+            ' ' => Ok(Knowledge::Open),
+            '.' => Ok(Knowledge::Unknown),
+            _ => Err(self.unexpected(offset, "`|`, a blank or `.` between two cells")),
         }
     }
 
@@ -338,20 +404,31 @@ impl Row<'_> {
         let drawn = self.line.text.get(self.indent..).unwrap_or_default();
         let found = drawn.chars().count();
         // A tab fakes a short line, and is found later.
-        if found > width * PITCH || drawn.contains('\t') {
+        if found > width * self.pitch || drawn.contains('\t') {
             return Ok(());
         }
-        Err(self.fault(found, MazeFault::TooShort { found, width }))
+        Err(self.fault(
+            found,
+            MazeFault::TooShort {
+                found,
+                width,
+                pitch: self.pitch,
+            },
+        ))
     }
 
     /// Checks that only remarks stand beyond the east border. What begins as a wall belongs to a
     /// wider maze.
     fn nothing_beyond(&self, width: u16) -> Result<(), MazeError> {
-        let offset = post(width) + 1;
+        let offset = self.post(width) + 1;
         match self.line.text.get(self.indent + offset..) {
-            Some(rest) if begins_wall(rest.trim_start()) => {
-                Err(self.fault(offset, MazeFault::BeyondBorder { width }))
-            }
+            Some(rest) if begins_wall(rest.trim_start()) => Err(self.fault(
+                offset,
+                MazeFault::BeyondBorder {
+                    width,
+                    pitch: self.pitch,
+                },
+            )),
             _ => Ok(()),
         }
     }

@@ -35,8 +35,9 @@ pub enum MazeFault {
     /// The first line does not begin a maze file.
     #[error(
         "found `{found}`, with which no maze file begins: expected a drawing of posts `o` or `+` and \
-         walls `---` and `|`, a `key = value` line before one, a size above rows of numbers, or \
-         lines `X Y N E S W`; redraw box characters, blocks and grids so"
+         walls `---` and `|`, a `key = value` line before one, a grid of `#`, a drawing of `_` and `|`, a \
+         size above rows of numbers, hexadecimal rows, or lines `X Y N E S W`; docs/maze-format.md shows how to \
+         convert others"
     )]
     UnknownFormat {
         /// Beginning of the line.
@@ -57,25 +58,55 @@ pub enum MazeFault {
     /// A line that ends before the east border.
     #[error(
         "the line is too short, {found} characters: the first line of the drawing has posts for {width} \
-         columns, so expected {} (one every 4 characters, and the last): draw a rectangle, and wall off the \
+         columns, so expected {} (one every {pitch} characters, and the last): draw a rectangle, and wall off the \
          rest",
-        width * 4 + 1
+        width * pitch + 1
     )]
     TooShort {
         /// Number of characters in the line.
         found: usize,
         /// Number of columns that the drawing's first line has posts for.
         width: usize,
+        /// Number of characters from one post to the next.
+        pitch: usize,
     },
     /// A line extends beyond the east border.
     #[error(
         "the drawing goes on beyond the east border: its first line has posts for {width} columns \
-         (one every 4 characters); draw a rectangle, and wall off the rest"
+         (one every {pitch} characters); draw a rectangle, and wall off the rest"
     )]
     BeyondBorder {
         /// Number of columns that the drawing's first line has posts for.
         width: u16,
+        /// Number of characters from one post to the next.
+        pitch: usize,
     },
+    /// A line of a grid with another length than the first.
+    #[error(
+        "the line has {found} characters, and the first has {width}: make all lines as long as the first"
+    )]
+    Ragged {
+        /// Number of characters in the line.
+        found: usize,
+        /// Number of characters in the first line.
+        width: usize,
+    },
+    /// A grid of blocks in which walls are not on every second line and column.
+    #[error(
+        "a grid of {columns} × {rows} blocks is no maze of cells: walls have to be on the first and every second \
+         line and column after it, and floors between them; draw walls as lines between cells"
+    )]
+    NoLattice {
+        /// Number of blocks in a line.
+        columns: usize,
+        /// Number of lines.
+        rows: usize,
+    },
+    /// A text that is no binary maze.
+    #[error(
+        "a `.maz` file has 256 or 1024 bytes, one for each cell: give a file of another format by its text"
+    )]
+    NotMaz,
     /// A drawing without its last line.
     #[error(
         "the drawing stops in the middle of a row, with its line {lines}: n rows of cells take 2n + 1 \
@@ -258,10 +289,11 @@ pub enum WriteError {
         /// Length of the longer side, cells.
         side: u16,
     },
-    /// The format [`Format::Numbers`] holds only squares of even size.
+    /// The formats [`Format::Numbers`] and [`Format::Maz`] hold only squares of some sizes.
     #[error(
-        "the format `{format}` cannot hold a maze of {} × {} cells: it needs a square of even size; \
-         write it as `{}`", grid.width(), grid.height(), Format::Tolman
+        "the format `{format}` cannot hold a maze of {} × {} cells: it needs a square of {}; \
+         write it as `{}`", grid.width(), grid.height(),
+        if *format == Format::Maz { "16 or 32 cells a side" } else { "even size" }, Format::Tolman
     )]
     Shape {
         /// Format to write.
@@ -296,6 +328,15 @@ pub enum WriteError {
         /// Goals that every maze of the format has.
         middle: Vec<Cell>,
     },
+    /// The format cannot hold unknown walls.
+    #[error(
+        "the format `{format}` cannot hold unknown walls: write it as `{}`",
+        Format::Tolman
+    )]
+    Unknown {
+        /// Format to write.
+        format: Format,
+    },
     /// A name that does not fit one line.
     #[error(
         "the name {name:?} has a line break or another control character: a maze's name is one line \
@@ -315,7 +356,7 @@ pub enum WriteError {
 
 /// The name is not the name of a [`Format`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{name}` is not a maze format: use numbers, mazefiles, num or tolman")]
+#[error("`{name}` is not a maze format: use {}", Format::ALL.map(Format::name).join(", "))]
 pub struct UnknownFormat {
     /// Name that was given.
     pub name: String,
@@ -351,6 +392,7 @@ const fn side(open: bool) -> &'static str {
 const fn start_rule(format: Format) -> &'static str {
     match format {
         Format::Mazefiles => "it has an S that looks north",
+        Format::Blocks => "it has an S that looks north, and a G elsewhere",
         _ => "its start is always (0, 0) looking north",
     }
 }

@@ -1,10 +1,10 @@
 //! [`Format::Mazefiles`](super::Format::Mazefiles): a drawing alone.
 
-use alloc::string::{String, ToString};
+use alloc::string::String;
 
 use super::lines::Lines;
-use super::{CLASSIC_START, Format, MazeError, Parsed, WriteError, drawing};
-use crate::{Direction, Maze};
+use super::{CLASSIC_START, Format, MazeError, MazeFile, Parsed, WriteError, drawing};
+use crate::Direction;
 
 pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
     lines.skip_blank();
@@ -12,12 +12,12 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
     if parsed.file.maze.start().is_none() {
         parsed.file.maze.set_start(Some(CLASSIC_START));
     }
-    Ok(parsed)
+    Ok(parsed.or_middle())
 }
 
-pub(super) fn write(maze: &Maze) -> Result<String, WriteError> {
-    match maze.start() {
-        Some((_, Direction::North)) => Ok(maze.to_string()),
+pub(super) fn write(file: &MazeFile) -> Result<String, WriteError> {
+    match file.maze.start() {
+        Some((_, Direction::North)) => Ok(drawing::text(file)),
         start => Err(WriteError::Start {
             format: Format::Mazefiles,
             start,

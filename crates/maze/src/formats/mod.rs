@@ -5,14 +5,19 @@
     not(test),
     warn(clippy::indexing_slicing, clippy::cast_possible_truncation)
 )]
+mod blocks;
+mod boxes;
 mod drawing;
 mod error;
+mod hex;
 mod lines;
+mod maz;
 mod mazefiles;
 mod num;
 mod numbers;
 mod sides;
 mod tolman;
+mod underscores;
 
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -22,8 +27,9 @@ use core::str::FromStr;
 pub(crate) use drawing::draw;
 pub use error::{MazeError, MazeFault, UnknownFormat, WriteError};
 use lines::{Lines, Place};
+pub use maz::maz_text;
 
-use crate::{Cell, Direction, Maze};
+use crate::{Cell, Direction, Grid, Knowledge, Maze, Walls};
 
 /// Contents of a maze file: the maze, and additions that only tolman's own format can hold.
 ///
@@ -50,8 +56,35 @@ pub struct MazeFile {
     /// The side of a cell, m, within [`MazeFile::CORRIDOR_WIDTHS`]. `None` leaves it to the world
     /// that is built.
     pub corridor_width: Option<f64>,
-    /// The maze itself.
+    /// The maze itself. Unknown walls are open in it.
     pub maze: Maze,
+    /// Edges between two cells of which the text does not say whether a wall stands there, each by
+    /// its western or southern cell.
+    pub unknown: Vec<(Cell, Direction)>,
+    /// Whether the text marks no goal, and the middle of the maze was taken.
+    pub goal_is_assumed: bool,
+}
+
+/// What the text says of each wall.
+impl Walls for MazeFile {
+    fn grid(&self) -> Grid {
+        self.maze.grid()
+    }
+
+    fn knowledge(&self, cell: Cell, direction: Direction) -> Knowledge {
+        match self.unknown.binary_search(&edge(cell, direction)) {
+            Ok(_) => Knowledge::Unknown,
+            Err(_) => self.maze.knowledge(cell, direction),
+        }
+    }
+}
+
+/// Returns the edge by its western or southern cell.
+fn edge(cell: Cell, direction: Direction) -> (Cell, Direction) {
+    match direction {
+        Direction::North | Direction::East => (cell, direction),
+        _ => (cell.beyond(direction).unwrap_or(cell), direction.opposite()),
+    }
 }
 
 impl MazeFile {
@@ -67,12 +100,14 @@ impl From<Maze> for MazeFile {
             name: None,
             corridor_width: None,
             maze,
+            unknown: Vec::new(),
+            goal_is_assumed: false,
         }
     }
 }
 
-/// A text format of mazes. It is displayed as, and parsed from, its name: `numbers`, `mazefiles`,
-/// `num` or `tolman`.
+/// A text format of mazes. It is displayed as, and parsed from, its name, such as `numbers` or
+/// `mazefiles`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Format {
@@ -82,8 +117,10 @@ pub enum Format {
     /// Squares only; the start is the south-west cell, looking north; the goal is the middle 2 × 2.
     Numbers,
     /// A drawing as in the `mazefiles` collection: 2h + 1 lines of 4w + 1 characters, north first.
-    /// Posts are `o` or `+`, walls `---` and `|`, marks `S` and `G`. Without an `S` the start is
-    /// the south-west cell; it looks north. The drawing ends at the first line that starts with
+    /// Posts are `o` or `+`, walls `---` and `|`, marks `S` and `G`. Cells may have other widths
+    /// than three characters, walls may be drawn with box characters, and a `.` is an unknown wall.
+    /// Without an `S` the start is the south-west cell; it looks north. Without a `G` the goal is
+    /// the middle. The drawing ends at the first line that starts with
     /// neither a post, a wall nor a blank; the rest is ignored.
     Mazefiles,
     /// The `.num` files of the simulator mms: a line `X Y N E S W` for each cell, 1 where a wall
@@ -92,11 +129,35 @@ pub enum Format {
     /// tolman's own file for corridor worlds: `key = value` lines, then a drawing.
     /// `docs/maze-format.md` describes it in full.
     Tolman,
+    /// A grid of blocks, each one or two characters wide: `#`, `@`, `█` or `1` is a wall, a blank,
+    /// `.` or `0` a floor, `S` the start, `G` or `E` the goal. Walls are on every second line and
+    /// column. Maps of moving-AI (`type octile`) are such grids below four lines.
+    Blocks,
+    /// A drawing of `_` and `|`, two characters a cell. Start and goal may be marked by `S` and `G`
+    /// in cells without a wall in the south.
+    Underscores,
+    /// A line of hexadecimal digits for each row of cells, north first. A digit is the sum of the
+    /// walls of its cell: 1 north, 2 east, 4 south, 8 west. Below may stand the start and the goal,
+    /// as column and row from the north-west.
+    Hex,
+    /// Binary `.maz` files of micromice: 256 or 1024 bytes, one for each cell, column by column
+    /// from the south-west. A byte is the sum of the walls of its cell, as in [`Format::Hex`].
+    /// [`maz_text`] makes a text of the bytes.
+    Maz,
 }
 
 impl Format {
     /// All formats that can be read and written.
-    pub const ALL: [Self; 4] = [Self::Numbers, Self::Mazefiles, Self::Num, Self::Tolman];
+    pub const ALL: [Self; 8] = [
+        Self::Numbers,
+        Self::Mazefiles,
+        Self::Num,
+        Self::Tolman,
+        Self::Blocks,
+        Self::Underscores,
+        Self::Hex,
+        Self::Maz,
+    ];
 
     /// Returns the name as typed on a command line.
     #[must_use]
@@ -106,15 +167,20 @@ impl Format {
             Self::Mazefiles => "mazefiles",
             Self::Num => "num",
             Self::Tolman => "tolman",
+            Self::Blocks => "blocks",
+            Self::Underscores => "underscores",
+            Self::Hex => "hex",
+            Self::Maz => "maz",
         }
     }
 
-    /// Returns the usual file extension, without the dot. Two formats share `txt`;
+    /// Returns the usual file extension, without the dot. Several formats share `txt`;
     /// [`Format::detect`] finds the format by the text.
     #[must_use]
     pub const fn extension(self) -> &'static str {
         match self {
-            Self::Numbers | Self::Mazefiles => "txt",
+            Self::Numbers | Self::Mazefiles | Self::Blocks | Self::Underscores | Self::Hex => "txt",
+            Self::Maz => "maz",
             Self::Num => "num",
             Self::Tolman => "maze",
         }
@@ -136,13 +202,24 @@ impl Format {
     /// assert!(Format::detect("<html>").is_err());
     /// ```
     pub fn detect(text: &str) -> Result<Self, MazeError> {
+        if maz::begins(text) {
+            return Ok(Self::Maz);
+        }
+        let text = &*boxes::plain(text);
         let mut lines = Lines::of(text);
+        let all = lines.clone();
         let line = lines
             .next_filled()
             .ok_or(MazeError::at_start(MazeFault::Empty))?;
         let first = line.text.trim();
         if drawing::begins(first) {
             Ok(Self::Mazefiles)
+        } else if blocks::begins(all.clone()) {
+            Ok(Self::Blocks)
+        } else if underscores::begins(first) {
+            Ok(Self::Underscores)
+        } else if hex::begins(all) {
+            Ok(Self::Hex)
         } else if first.starts_with('#') || first.contains('=') {
             Ok(Self::Tolman)
         } else if first.contains(|c: char| !c.is_ascii_digit() && !matches!(c, ',' | ' ' | '\t')) {
@@ -230,15 +307,26 @@ pub fn write(file: &MazeFile, format: Format) -> Result<String, WriteError> {
     if let Some(side) = error::too_large(grid) {
         return Err(WriteError::TooLarge { side });
     }
+    if !file.unknown.is_empty() && !matches!(format, Format::Mazefiles | Format::Tolman) {
+        return Err(WriteError::Unknown { format });
+    }
     match format {
         Format::Numbers => numbers::write(&file.maze),
-        Format::Mazefiles => mazefiles::write(&file.maze),
+        Format::Mazefiles => mazefiles::write(file),
         Format::Num => num::write(&file.maze),
         Format::Tolman => tolman::write(file),
+        Format::Blocks => blocks::write(&file.maze),
+        Format::Underscores => underscores::write(&file.maze),
+        Format::Hex => hex::write(&file.maze),
+        Format::Maz => maz::write(&file.maze),
     }
 }
 
 fn parsed(text: &str, format: Format) -> Result<Parsed, MazeError> {
+    if format == Format::Maz && maz::begins(text) {
+        return maz::parse(text);
+    }
+    let text = &*boxes::plain(text);
     let mut lines = Lines::of(text);
     if lines.clone().next_filled().is_none() {
         return Err(MazeError::at_start(MazeFault::Empty));
@@ -248,6 +336,10 @@ fn parsed(text: &str, format: Format) -> Result<Parsed, MazeError> {
         Format::Mazefiles => mazefiles::parse(&mut lines),
         Format::Num => num::parse(&mut lines),
         Format::Tolman => tolman::parse(&mut lines),
+        Format::Blocks => blocks::parse(&mut lines),
+        Format::Underscores => underscores::parse(&mut lines),
+        Format::Hex => hex::parse(&mut lines),
+        Format::Maz => Err(MazeError::at_start(MazeFault::NotMaz)),
     }
 }
 
@@ -267,6 +359,16 @@ impl Parsed {
             places,
             begin: Place::default(),
         }
+    }
+
+    /// Takes the middle for the goal if none is marked.
+    fn or_middle(mut self) -> Self {
+        let maze = &mut self.file.maze;
+        if maze.goals().is_empty() {
+            maze.set_goals(maze.grid().middle().collect());
+            self.file.goal_is_assumed = true;
+        }
+        self
     }
 
     fn checked(self) -> Result<MazeFile, MazeError> {

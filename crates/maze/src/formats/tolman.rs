@@ -61,7 +61,7 @@ pub(super) fn write(file: &MazeFile) -> Result<String, WriteError> {
     {
         text.push_str(&format!("{START} = {} {} {heading}\n", cell.x, cell.y));
     }
-    text.push_str(&format!("\n{}", file.maze));
+    text.push_str(&format!("\n{}", drawing::text(file)));
     Ok(text)
 }
 

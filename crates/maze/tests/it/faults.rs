@@ -20,8 +20,9 @@ fn texts_that_are_no_maze() {
     check(
         "\n  <!DOCTYPE html>",
         "line 2, column 3: found `<!DOCTYPE html>`, with which no maze file begins: expected a drawing \
-         of posts `o` or `+` and walls `---` and `|`, a `key = value` line before one, a size above \
-         rows of numbers, or lines `X Y N E S W`; redraw box characters, blocks and grids so",
+         of posts `o` or `+` and walls `---` and `|`, a `key = value` line before one, a grid of `#`, a drawing \
+         of `_` and `|`, a size above rows of numbers, hexadecimal rows, or lines `X Y N E S W`; \
+         docs/maze-format.md shows how to convert others",
     );
 }
 
@@ -48,10 +49,6 @@ fn drawings() {
         "  o---o---o\n  | S | G |\n  o---o---o\n",
         "line 2, column 9: no way leads from the start (0, 0) to the goal (1, 0): open a wall \
          between them",
-    );
-    check(
-        "o---o---o\n| S     |\no---o---o\n",
-        "line 1, column 1: the maze has no goal: mark at least one cell as the destination",
     );
     check(
         "o---o---o\n| S   G |\n",

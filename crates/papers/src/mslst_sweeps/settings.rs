@@ -255,9 +255,8 @@ fn widened(world: &World, units: f64) -> Result<World, BoxError> {
         return Ok(world.clone());
     };
     let file = MazeFile {
-        name: None,
         corridor_width: Some(units * ROBOT_UNIT),
-        maze: course.maze.clone(),
+        ..course.maze.clone().into()
     };
     let course = Course::for_body(&course.name, &file, &pioneer::body())?;
     Ok(World::Fixed {

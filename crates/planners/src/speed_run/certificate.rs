@@ -29,7 +29,7 @@ pub struct SpeedRunCertificate {
 #[non_exhaustive]
 pub enum SpeedRunCertificateError {
     /// A straight or turn is impossible at the mouse's position, such as a diagonal in the middle
-    /// of a cell.
+    /// of a cell, or the mouse does not make this turn.
     #[error(
         "move {number} ({run_move:?}) cannot be made from the mouse's position then: search the run again"
     )]
@@ -85,6 +85,33 @@ impl SpeedRunCertificate {
         config: &SpeedRunConfig,
         goals: &[Cell],
     ) -> Result<(), SpeedRunCertificateError> {
+        let actual_ms = self.driven_ms(walls, config, goals)?;
+        let time_ms = self.time_ms;
+        if actual_ms != time_ms {
+            return Err(SpeedRunCertificateError::WrongTime { time_ms, actual_ms });
+        }
+        match best_possible_ms(walls, config, (self.start, self.heading), goals) {
+            Some(possible_ms) if possible_ms < time_ms => {
+                Err(SpeedRunCertificateError::NotTheBest {
+                    time_ms,
+                    possible_ms,
+                })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Drives the moves on walls known to be open, whatever the stated time, and returns how long
+    /// they take, ms.
+    ///
+    /// # Errors
+    /// If a move is impossible or not known to be open, or the run does not end at one of `goals`.
+    pub fn driven_ms(
+        &self,
+        walls: &impl Walls,
+        config: &SpeedRunConfig,
+        goals: &[Cell],
+    ) -> Result<u32, SpeedRunCertificateError> {
         let mut at = in_middle(self.start, self.heading);
         let mut actual_ms = 0;
         for (number, run_move) in self.moves.iter().copied().enumerate() {
@@ -99,25 +126,14 @@ impl SpeedRunCertificate {
             {
                 return Err(SpeedRunCertificateError::NotOpen { number, run_move });
             }
-            actual_ms += time_ms(run_move, config);
+            actual_ms += time_ms(run_move, config)
+                .ok_or(SpeedRunCertificateError::Impossible { number, run_move })?;
             at = made.to;
         }
         if !is_goal(at, goals) {
             return Err(SpeedRunCertificateError::NotAtGoal);
         }
-        let time_ms = self.time_ms;
-        if actual_ms != time_ms {
-            return Err(SpeedRunCertificateError::WrongTime { time_ms, actual_ms });
-        }
-        match best_possible_ms(walls, config, (self.start, self.heading), goals) {
-            Some(possible_ms) if possible_ms < time_ms => {
-                Err(SpeedRunCertificateError::NotTheBest {
-                    time_ms,
-                    possible_ms,
-                })
-            }
-            _ => Ok(()),
-        }
+        Ok(actual_ms)
     }
 }
 
@@ -141,7 +157,9 @@ pub fn best_possible_ms(
             ends.push(number);
         }
         for made in moves(pose, &open, grid) {
-            arcs.push((number, made.to.index(grid), time_ms(made.run_move, config)));
+            if let Some(time_ms) = time_ms(made.run_move, config) {
+                arcs.push((number, made.to.index(grid), time_ms));
+            }
         }
     }
     let graph = Arcs::new(LatticePose::count(grid) as usize, &arcs);
@@ -197,6 +215,9 @@ const FROM_DIAGONAL: [Template; 3] = [
     Template::new(Slalom::F135, &[(1, 1), (2, 0)], (2, -1), 3),
 ];
 
+/// Turn from a southern edge, looking north.
+const FROM_EDGE: Template = Template::new(Slalom::Fs90, &[(1, 1)], (1, 1), 2);
+
 /// Returns the pose in the middle of a cell.
 const fn in_middle(cell: Cell, heading: Direction) -> LatticePose {
     LatticePose {
@@ -217,6 +238,12 @@ fn moves(from: LatticePose, open: &impl Fn(LatticePoint) -> bool, grid: Grid) ->
                 made.extend(turn(from, template, Side::Left, open));
             }
         }
+        // On an edge, looking across it.
+        (1, 0) if u32::from(heading.index() % 4 == 0) == place.x % 2 => {
+            straights(from, open, grid, &mut made);
+            made.extend(turn(from, &FROM_EDGE, Side::Right, open));
+            made.extend(turn(from, &FROM_EDGE, Side::Left, open));
+        }
         (1, 1) => {
             straights(from, open, grid, &mut made);
             // On a southern edge and looking north-east, a mouse turns right; every eighth of a
@@ -235,7 +262,7 @@ fn moves(from: LatticePose, open: &impl Fn(LatticePoint) -> bool, grid: Grid) ->
     made
 }
 
-/// Adds to `made` the straights of 1, 2, … cells.
+/// Adds to `made` the straights of 1, 2, … half cells, or half cell diagonals.
 fn straights(
     from: LatticePose,
     open: &impl Fn(LatticePoint) -> bool,
@@ -245,19 +272,20 @@ fn straights(
     let heading = from.heading;
     let mut place = from.place;
     let mut passed = Vec::new();
-    for cells in 1..=2 * grid.width().max(grid.height()) {
-        // From the middle of a cell one crosses an edge on the way, from an edge at the end.
-        let edge = place.ahead(heading);
-        if !open(edge) {
+    for length in 1..=4 * grid.width().max(grid.height()) {
+        place = place.ahead(heading);
+        if !open(place) {
             return;
         }
-        passed.push(edge);
-        let (run_move, end) = if heading.side().is_some() {
-            (RunMove::Straight { cells }, edge.ahead(heading))
+        // Middles of cells, which have two odd coordinates, are no edges.
+        if (place.x % 2, place.y % 2) != (1, 1) {
+            passed.push(place);
+        }
+        let run_move = if heading.side().is_some() {
+            RunMove::Straight { half_cells: length }
         } else {
-            (RunMove::Diagonal { cells }, edge)
+            RunMove::Diagonal { cells: length }
         };
-        place = end;
         let to = LatticePose { place, heading };
         if leads_on(to, open) {
             made.push(Made {
@@ -316,6 +344,7 @@ fn leads_on(pose: LatticePose, open: &impl Fn(LatticePoint) -> bool) -> bool {
     pose.heading.side().is_some() || open(pose.place.ahead(pose.heading))
 }
 
+/// Returns whether the pose is in the middle of a goal, where a run ends along a straight.
 fn is_goal(pose: LatticePose, goals: &[Cell]) -> bool {
     let is_there = |goal: &Cell| LatticePoint::middle_of(*goal) == pose.place;
     pose.heading.side().is_some() && goals.iter().any(is_there)
@@ -330,26 +359,25 @@ fn knowledge(walls: &impl Walls, point: LatticePoint) -> Knowledge {
     }
 }
 
-fn time_ms(run_move: RunMove, config: &SpeedRunConfig) -> u32 {
+/// Returns the duration of a move, ms, or `None` if the mouse does not make it.
+fn time_ms(run_move: RunMove, config: &SpeedRunConfig) -> Option<u32> {
     let seconds = |drive: SpeedProfile, length: f64| {
-        let (slow, fast, gain) = (
-            config.turn_speed_mm_s,
-            drive.top_speed_mm_s,
-            drive.acceleration_mm_s2,
-        );
-        // Speed reached half-way, if the top speed allows it.
-        let peak = libm::sqrt(slow * slow + gain * length).min(fast);
-        let ramps = (peak * peak - slow * slow) / gain;
-        2.0 * (peak - slow) / gain + (length - ramps) / peak
+        let (slow, fast) = (config.turn_speed_mm_s, drive.top_speed_mm_s);
+        let (up, down) = (drive.acceleration_mm_s2, drive.braking());
+        // Speed reached where the mouse has to brake, if the top speed allows it.
+        let share = up * down / (up + down);
+        let peak = libm::sqrt(slow * slow + 2.0 * share * length).min(fast);
+        let ramps = (peak * peak - slow * slow) / (2.0 * share);
+        (peak - slow) / up + (peak - slow) / down + (length - ramps) / peak
     };
-    let cells = |cells: u16| f64::from(cells) * config.cell_mm;
+    let half_cells = |halves: u16| f64::from(halves) * config.cell_mm / 2.0;
     let whole = |seconds: f64| libm::ceil(seconds * 1000.0 - 1e-6) as u32;
     match run_move {
-        RunMove::Straight { cells: n } => whole(seconds(config.straight, cells(n))),
-        RunMove::Diagonal { cells: n } => whole(seconds(
+        RunMove::Straight { half_cells: n } => Some(whole(seconds(config.straight, half_cells(n)))),
+        RunMove::Diagonal { cells: n } => Some(whole(seconds(
             config.diagonal,
-            cells(n) / core::f64::consts::SQRT_2,
-        )),
-        RunMove::Turn { slalom, .. } => u32::from(config.slalom.time_ms(slalom)),
+            half_cells(n) * core::f64::consts::SQRT_2,
+        ))),
+        RunMove::Turn { slalom, side } => config.turn_ms(slalom, side).ok().flatten(),
     }
 }

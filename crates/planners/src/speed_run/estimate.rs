@@ -1,4 +1,5 @@
 use super::SpeedRunTimes;
+use super::map::NEVER;
 use super::state::Node;
 
 /// What is known of a run while it is searched for: where it ends, how long it takes at most, and
@@ -18,7 +19,7 @@ impl<const N: usize> Estimate<N> {
         Self {
             end: (cell % N, cell / N),
             per_cell: end.map_or(0, |_| times.per_cell()),
-            at_most: u16::MAX.into(),
+            at_most: NEVER,
         }
     }
 
@@ -42,53 +43,56 @@ mod tests {
 
     use super::super::ways::{straights, turns};
     use super::*;
-    use crate::speed_run::{SpeedRunConfig, SpeedRunConfigError};
+    use crate::speed_run::{Slalom, SlalomTurn, SlalomTurns, SpeedRunConfig, SpeedRunConfigError};
     use crate::{Passages, Unknown};
 
-    /// Times of moves that last very differently, too.
+    /// Times of moves that last very differently, too. Turns take so many times their least.
     fn times(
-        turns: [u16; 5],
+        factors: [f64; 6],
         cell_mm: f64,
         top_speed: f64,
     ) -> Result<SpeedRunTimes<9>, SpeedRunConfigError> {
         let mut config = SpeedRunConfig::classic();
         config.cell_mm = cell_mm;
         config.straight.top_speed_mm_s = top_speed;
-        let slalom = &mut config.slalom;
-        [
-            slalom.f45_ms,
-            slalom.f90_ms,
-            slalom.f135_ms,
-            slalom.f180_ms,
-            slalom.fv90_ms,
-        ] = turns;
+        let turn = |number: usize| {
+            let least = Slalom::ALL[number].least_cells() * cell_mm / config.turn_speed_mm_s;
+            let time_ms = (1000.0 * least * factors[number]) as u32;
+            Some(SlalomTurn::Timed { time_ms })
+        };
+        let mut slalom = SlalomTurns::NONE;
+        (slalom.f45, slalom.f90, slalom.f135) = (turn(0), turn(1), turn(2));
+        (slalom.f180, slalom.fv90) = (turn(3), turn(4));
+        slalom.fs90 = turn(5).filter(|_| factors[5] < 2.0);
+        config.slalom = slalom;
         SpeedRunTimes::new(&config)
     }
 
     proptest! {
         #[test]
         fn no_move_makes_the_estimate_less(
-            turn_ms in prop::array::uniform5(30_u16..600),
+            factors in prop::array::uniform6(1.0..3.0),
             cell_mm in 20.0..300.0,
-            top_speed in 420.0..3000.0,
+            top_speed in 594.0..3000.0,
             end in 0_usize..81,
             from in 0_usize..81,
-            state in 0_usize..12,
+            state in 0_usize..16,
         ) {
-            let Ok(times) = times(turn_ms, cell_mm, top_speed) else {
+            let Ok(times) = times(factors, cell_mm, top_speed) else {
                 return Ok(());
             };
             let maze = Maze::open(Grid::new(9, 9));
             let passages = Passages::<9>::new(&maze, Unknown::Closed).unwrap();
             let estimate = Estimate::to(Some(Node::numbered(end, 0)), &times);
             let from = Node::numbered(from, state);
+            prop_assume!(times.has_halves() || state < 12);
             let before = estimate.of_run(0, from.cell);
-            for (cells, to) in straights(&passages, from) {
+            for (cells, to) in straights(&passages, from, times.has_halves()) {
                 let takes = times.straights_of(from.facing())[cells].into();
                 prop_assert!(estimate.of_run(takes, to.cell) >= before);
             }
-            for (slalom, _, to) in turns(&passages, from) {
-                let takes = times.turn_ms(slalom).into();
+            for (slalom, side, to) in turns(&passages, from) {
+                let takes = times.turn_ms(slalom, side).min(1 << 24);
                 prop_assert!(estimate.of_run(takes, to.cell) >= before);
             }
             prop_assert_eq!(estimate.of_run(7, end), 7);

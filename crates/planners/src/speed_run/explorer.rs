@@ -1,6 +1,6 @@
 use tolman_maze::{Cell, Direction, Knowledge, Walls};
 
-use super::{RunState, SpeedRunPlanner, SpeedRunTimes};
+use super::{CellTimes, RunState, SpeedRunPlanner, SpeedRunTimes};
 use crate::{Passages, StepMap, TooLarge, Unknown};
 
 /// Explores a maze cell by cell until the best speed run is known for certain, and comes back.
@@ -13,8 +13,8 @@ use crate::{Passages, StepMap, TooLarge, Unknown};
 /// The explorer compares its stored passages with `walls` at each call. So walls may be forgotten
 /// again at any time.
 #[derive(Clone, Debug)]
-pub struct SpeedRunExplorer<'a, const N: usize> {
-    planner: SpeedRunPlanner<'a, N>,
+pub struct SpeedRunExplorer<'a, const N: usize, C: CellTimes = [u32; 16]> {
+    planner: SpeedRunPlanner<'a, N, C>,
     home: Cell,
     stage: ExploreStage,
 }
@@ -39,13 +39,13 @@ pub enum Decision {
     /// the unknown walls are.
     Finished {
         /// Duration of the known run, ms.
-        run_ms: u16,
+        run_ms: u32,
     },
     /// No way leads to a goal, or the walls around the mouse are not known.
     Stuck,
 }
 
-impl<'a, const N: usize> SpeedRunExplorer<'a, N> {
+impl<'a, const N: usize, C: CellTimes> SpeedRunExplorer<'a, N, C> {
     /// Returns an explorer without observations, for a mouse that starts in `home`, looking to
     /// `heading`.
     #[must_use]
@@ -130,7 +130,7 @@ impl<'a, const N: usize> SpeedRunExplorer<'a, N> {
 
     /// Returns the planner. Its run is the best possible one, and in the end the proven best.
     #[must_use]
-    pub const fn planner(&self) -> &SpeedRunPlanner<'a, N> {
+    pub const fn planner(&self) -> &SpeedRunPlanner<'a, N, C> {
         &self.planner
     }
 }

@@ -4,20 +4,21 @@ use tolman_maze::Cell;
 
 use super::buckets::Buckets;
 use super::estimate::Estimate;
-use super::state::{Node, STATES_PER_CELL, index};
+use super::state::{Node, index};
 use super::ways::{line, turns};
-use super::{RunState, SpeedRun, SpeedRunTimes};
+use super::{CellTimes, RunState, SpeedRun, SpeedRunTimes};
 use crate::Passages;
 
-/// Duration that counts as never.
-const NEVER: u16 = u16::MAX;
+/// Duration that counts as never, ms. Two of them fit into a number.
+pub(super) const NEVER: u32 = 1 << 30;
 
 /// Duration of the best speed run from every state to the nearest goal, in a maze of up to `N` ×
 /// `N` cells, `N` ≤ 32.
 ///
 /// A run ends in the middle of a goal cell, coming along a straight. It is the best of all that
-/// consist of straights, diagonals and [slalom turns](super::Slalom), in whole milliseconds. What
-/// takes 65.535 s or more counts as out of reach. A larger `N` does not compile:
+/// consist of straights, diagonals and [slalom turns](super::Slalom), in whole milliseconds. `C` says
+/// how much memory its times take; a chip with little of it has [smaller ones](CellTimes). A larger
+/// `N` does not compile:
 ///
 /// ```compile_fail
 /// # use tolman_planners::speed_run::SpeedRunMap;
@@ -34,9 +35,9 @@ const NEVER: u16 = u16::MAX;
 /// be part of a run as fast as one that was found. Source: Hart, Nilsson and Raphael, *A formal
 /// basis for the heuristic determination of minimum cost paths* (1968).
 #[derive(Clone, Debug)]
-pub struct SpeedRunMap<const N: usize> {
+pub struct SpeedRunMap<const N: usize, C: CellTimes = [u32; 16]> {
     /// Times to the reversed states, ms: the search drives backwards from the goals.
-    times: [[[u16; STATES_PER_CELL]; N]; N],
+    times: [[C; N]; N],
     /// One bit for each state that a turn reaches and whose moves have not been looked at yet.
     waiting: [[u16; N]; N],
     buckets: Buckets<N>,
@@ -52,19 +53,19 @@ pub enum Extent {
     Until(RunState),
 }
 
-impl<const N: usize> Default for SpeedRunMap<N> {
+impl<const N: usize, C: CellTimes> Default for SpeedRunMap<N, C> {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl<const N: usize> SpeedRunMap<N> {
+impl<const N: usize, C: CellTimes> SpeedRunMap<N, C> {
     /// Returns a map on which no goal is in reach from anywhere.
     #[must_use]
     pub const fn new() -> Self {
         const { assert!(N <= 32, "a row of cells is a word of 32 bits") };
         Self {
-            times: [[[NEVER; STATES_PER_CELL]; N]; N],
+            times: [[C::NOWHERE; N]; N],
             waiting: [[0; N]; N],
             buckets: Buckets::EMPTY,
         }
@@ -97,7 +98,7 @@ impl<const N: usize> SpeedRunMap<N> {
         goals: &[Cell],
         last: Option<Node>,
     ) {
-        self.times.as_flattened_mut().fill([NEVER; STATES_PER_CELL]);
+        self.times.as_flattened_mut().fill(C::NOWHERE);
         self.waiting.as_flattened_mut().fill(0);
         self.buckets.clear();
         let mut estimate = Estimate::to(last, times);
@@ -112,7 +113,7 @@ impl<const N: usize> SpeedRunMap<N> {
         while let Some(next) = self.buckets.next(bucket) {
             bucket = next;
             while let Some(cell) = self.buckets.pop(bucket) {
-                estimate.at_most = last.map_or(NEVER, |last| self.time(last)).into();
+                estimate.at_most = last.map_or(NEVER, |last| self.time(last));
                 self.settle(cell, &estimate, passages, times);
             }
             if last.is_some_and(|last| times.bucket(self.time(last)) <= bucket) {
@@ -124,7 +125,7 @@ impl<const N: usize> SpeedRunMap<N> {
     /// Returns the duration of the run from `state` to the nearest goal, ms, or `None` if no way
     /// leads there.
     #[must_use]
-    pub fn time_ms(&self, state: RunState) -> Option<u16> {
+    pub fn time_ms(&self, state: RunState) -> Option<u32> {
         let time = self.time_from(Node::new::<N>(state));
         (time != NEVER).then_some(time)
     }
@@ -140,19 +141,26 @@ impl<const N: usize> SpeedRunMap<N> {
         passages: &'a Passages<N>,
         times: &'a SpeedRunTimes<N>,
         start: RunState,
-    ) -> SpeedRun<'a, N> {
+    ) -> SpeedRun<'a, N, C> {
         SpeedRun::new(self, passages, times, Node::new::<N>(start))
     }
 
     /// Returns the duration; [`NEVER`] if no way leads to a goal.
-    pub(super) fn time_from(&self, node: Node) -> u16 {
+    pub(super) fn time_from(&self, node: Node) -> u32 {
         self.time(node.reversed::<N>())
     }
 
     #[inline(always)]
-    fn time(&self, node: Node) -> u16 {
-        let times = self.times.as_flattened().as_flattened();
-        times.get(node.number).copied().unwrap_or(NEVER)
+    fn time(&self, node: Node) -> u32 {
+        let times = self.times.as_flattened().get(node.cell);
+        times.map_or(NEVER, |times| times.of(node.state))
+    }
+
+    /// Sets the time to a state, and returns whether there is room for it.
+    #[inline(always)]
+    fn set(&mut self, node: Node, time: u32) -> bool {
+        let times = self.times.as_flattened_mut().get_mut(node.cell);
+        times.is_some_and(|times| times.set(node.state, time))
     }
 
     /// Drives on from every waiting state of `cell`.
@@ -172,24 +180,19 @@ impl<const N: usize> SpeedRunMap<N> {
             let time = self.time(from);
             self.turn(from, time, estimate, passages, times);
             let lengths = times.straights_of(from.facing());
-            for (cells, to, is_open) in line(passages, from) {
-                let Some(best) = self
-                    .times
-                    .as_flattened_mut()
-                    .as_flattened_mut()
-                    .get_mut(to.number)
-                else {
-                    break;
-                };
+            for (length, to, is_open) in line(passages, from, times.has_halves()) {
+                let best = self.time(to);
                 // A state that was reached no later stays ahead along the whole straight. One
                 // branch for both, because nothing foresees where a straight ends.
-                if !is_open | (*best <= time) {
+                if !is_open | (best <= time) {
                     break;
                 }
-                let takes = lengths.get(cells).copied().unwrap_or(NEVER);
-                let arrives = time.saturating_add(takes);
-                if arrives < *best && estimate.of_run(arrives.into(), to.cell) <= estimate.at_most {
-                    *best = arrives;
+                let takes = lengths.get(length).copied().map_or(NEVER, u32::from);
+                let arrives = time + takes;
+                if arrives < best
+                    && estimate.of_run(arrives, to.cell) <= estimate.at_most
+                    && self.set(to, arrives)
+                {
                     if let Some(waiting) =
                         self.waiting.as_flattened_mut().get_mut(to.cell % (N * N))
                     {
@@ -207,31 +210,26 @@ impl<const N: usize> SpeedRunMap<N> {
     fn turn(
         &mut self,
         from: Node,
-        time: u16,
+        time: u32,
         estimate: &Estimate<N>,
         passages: &Passages<N>,
         times: &SpeedRunTimes<N>,
     ) {
-        for (slalom, _, to) in turns(passages, from) {
-            let arrives = u32::from(time) + u32::from(times.turn_ms(slalom));
+        for (slalom, side, to) in turns(passages, from) {
+            // Backwards, a turn to the right goes to the left.
+            let arrives = time + times.turn_ms(slalom, side.opposite());
             self.reach(to, arrives, estimate, times);
         }
     }
 
     #[inline(always)]
     fn reach(&mut self, node: Node, time: u32, estimate: &Estimate<N>, times: &SpeedRunTimes<N>) {
-        let states = self.times.as_flattened_mut().as_flattened_mut();
-        if let Some(best) = states.get_mut(node.number)
-            && time < u32::from(*best)
-            && let whole = estimate.of_run(time, node.cell)
-            && whole <= estimate.at_most
-        {
-            let time = time as u16;
-            *best = time;
+        let whole = estimate.of_run(time, node.cell);
+        if time < self.time(node) && whole <= estimate.at_most && self.set(node, time) {
             if let Some(waiting) = self.waiting.as_flattened_mut().get_mut(node.cell % (N * N)) {
                 *waiting |= 1 << node.state;
             }
-            self.buckets.insert(times.bucket(whole as u16), node.cell);
+            self.buckets.insert(times.bucket(whole), node.cell);
         }
     }
 }

@@ -27,7 +27,7 @@
 //! let maze = tolman_maze::read(text)?.maze;
 //! let times = SpeedRunTimes::<16>::new(&SpeedRunConfig::classic())?;
 //! let passages = Passages::new(&maze, Unknown::Closed)?;
-//! let mut map = SpeedRunMap::new();
+//! let mut map = SpeedRunMap::<16>::new();
 //! map.search(&passages, &times, maze.goals(), Extent::Everywhere);
 //!
 //! let start = RunState::Straight { cell: Cell::new(0, 3), heading: Direction::East };
@@ -39,8 +39,8 @@
 //! # Ok::<(), Box<dyn core::error::Error>>(())
 //! ```
 //!
-//! Model and default values are those of kerikun11/micromouse-maze-library (`StepMapSlalom`), so
-//! that the times can be compared. It deviates in two points. Times are whole milliseconds,
+//! The model is that of kerikun11/micromouse-maze-library (`StepMapSlalom`), and so are the values
+//! for half-size mazes. It deviates in two points. Times are whole milliseconds,
 //! straights rounded up, where the library cuts them down to multiples of two. And the search is
 //! exact: the library stops looking along a straight where another run is faster, although its own
 //! could be faster farther on.
@@ -48,6 +48,7 @@
 //! Nothing here allocates, except for the checker, and nothing panics: sizes are const generics.
 
 mod buckets;
+mod cell_times;
 #[cfg(feature = "alloc")]
 mod certificate;
 mod config;
@@ -59,11 +60,13 @@ mod planner;
 mod run;
 mod state;
 mod times;
+mod turn;
 mod ways;
 
+pub use cell_times::CellTimes;
 #[cfg(feature = "alloc")]
 pub use certificate::{SpeedRunCertificate, SpeedRunCertificateError, best_possible_ms};
-pub use config::{SlalomTimes, SpeedProfile, SpeedRunConfig, SpeedRunConfigError};
+pub use config::{SearchPace, SpeedProfile, SpeedRunConfig, SpeedRunConfigError};
 pub use explorer::{Decision, ExploreStage, SpeedRunExplorer};
 pub use map::{Extent, SpeedRunMap};
 pub use moves::{RunMove, RunStep, Side, Slalom};
@@ -72,3 +75,4 @@ pub use run::SpeedRun;
 pub use state::RunState;
 pub(crate) use state::{beside, opposite};
 pub use times::SpeedRunTimes;
+pub use turn::{DrivenTurn, SlalomTurn, SlalomTurns};

@@ -1,14 +1,14 @@
 use tolman_maze::Direction;
 
-use super::{RunState, SlalomTimes};
+use super::RunState;
 
 /// One move of a speed run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RunMove {
-    /// A number of cells straight on.
+    /// Straight on, between the middles of cells and of their sides.
     Straight {
-        /// Number of cells, 1 or more.
-        cells: u16,
+        /// Number of half cells, 1 or more.
+        half_cells: u16,
     },
     /// A number of cells straight on along a diagonal, from edge to edge.
     Diagonal {
@@ -45,6 +45,10 @@ pub enum Slalom {
     /// 90° from diagonal to diagonal: through the northern edge and out through the western edge of
     /// the cell there.
     Fv90,
+    /// 90° within a cell, as most first mice have it: from the middle of the side through which
+    /// the mouse enters a cell to the middle of the side to the right. Driven as a curve or, with a
+    /// stop in the middle of the cell, in place.
+    Fs90,
 }
 
 /// A move of a speed run and where it begins.
@@ -61,29 +65,38 @@ impl RunStep {
     /// [`RunStep::from`] to that of the state after the move.
     pub fn directions(self) -> impl Iterator<Item = Direction> {
         // The directions form a pattern, which starts again when it is used up.
+        let to = |heading: Direction, side| match side {
+            Side::Left => heading.left(),
+            Side::Right => heading.right(),
+        };
         let (pattern, period, count) = match (self.from, self.run_move) {
             (RunState::Straight { heading, .. }, RunMove::Turn { slalom, side }) => {
-                let to_side = match side {
-                    Side::Left => heading.left(),
-                    Side::Right => heading.right(),
-                };
                 let count = match slalom {
-                    Slalom::F45 | Slalom::F90 => 2,
+                    Slalom::F45 | Slalom::F90 | Slalom::Fs90 => 2,
                     Slalom::F135 | Slalom::F180 | Slalom::Fv90 => 3,
                 };
-                ([heading, to_side, heading.opposite()], 3, count)
+                ([heading, to(heading, side), heading.opposite()], 3, count)
+            }
+            (RunState::Edge { heading, .. }, RunMove::Turn { side, .. }) => {
+                ([to(heading, side); 3], 1, 1)
             }
             (RunState::Diagonal { into, out, .. }, RunMove::Turn { slalom, .. }) => {
                 let count = if slalom == Slalom::F45 { 1 } else { 2 };
                 ([out, into.opposite(), out], 3, count)
             }
+            (RunState::Straight { heading, .. }, RunMove::Straight { half_cells }) => {
+                ([heading; 3], 1, half_cells.div_ceil(2))
+            }
+            (RunState::Edge { heading, .. }, RunMove::Straight { half_cells }) => {
+                ([heading; 3], 1, half_cells / 2)
+            }
             (
-                RunState::Straight { heading, .. },
-                RunMove::Straight { cells } | RunMove::Diagonal { cells },
+                RunState::Straight { heading, .. } | RunState::Edge { heading, .. },
+                RunMove::Diagonal { cells },
             ) => ([heading; 3], 1, cells),
             (
                 RunState::Diagonal { into, out, .. },
-                RunMove::Straight { cells } | RunMove::Diagonal { cells },
+                RunMove::Straight { half_cells: cells } | RunMove::Diagonal { cells },
             ) => ([out, into, out], 2, cells),
         };
         pattern.into_iter().take(period).cycle().take(count.into())
@@ -92,26 +105,32 @@ impl RunStep {
 
 impl RunStep {
     /// Returns the letter of the move as kerikun11/micromouse-maze-library has it
-    /// (`RobotBase::FastAction`), and how often it is written: a straight of three cells is `SSS`.
+    /// (`RobotBase::FastAction`), and how often it is written: a straight of three cells is `SSS`,
+    /// one with an odd number of half cells has `s` for each of them.
     ///
-    /// `S` is a cell straight on and `w` half a cell's diagonal. Turns to the left and right are
-    /// `z` and `c` for F45, `q` and `Q` for F90, `a` and `d` for F135. They are `u` and `U` for
-    /// F180, `p` and `P` for FV90. F45 and F135 out of a diagonal are `Z`, `C`, `A` and `D`.
+    /// `S` is a cell straight on, `s` half a cell, and `w` half a cell's diagonal. Turns to the left
+    /// and right are `z` and `c` for F45, `q` and `Q` for F90, `a` and `d` for F135. They are `u`
+    /// and `U` for F180, `p` and `P` for FV90, `L` and `R` for FS90. F45 and F135 out of a diagonal
+    /// are `Z`, `C`, `A` and `D`.
     #[must_use]
     pub const fn letters(self) -> (char, u16) {
         let (slalom, side) = match self.run_move {
-            RunMove::Straight { cells } => return ('S', cells),
+            RunMove::Straight { half_cells } if half_cells % 2 == 0 => {
+                return ('S', half_cells / 2);
+            }
+            RunMove::Straight { half_cells } => return ('s', half_cells),
             RunMove::Diagonal { cells } => return ('w', cells),
             RunMove::Turn { slalom, side } => (slalom, side),
         };
         let (left, right) = match (slalom, self.from) {
-            (Slalom::F45, RunState::Straight { .. }) => ('z', 'c'),
             (Slalom::F45, RunState::Diagonal { .. }) => ('Z', 'C'),
-            (Slalom::F135, RunState::Straight { .. }) => ('a', 'd'),
+            (Slalom::F45, _) => ('z', 'c'),
             (Slalom::F135, RunState::Diagonal { .. }) => ('A', 'D'),
+            (Slalom::F135, _) => ('a', 'd'),
             (Slalom::F90, _) => ('q', 'Q'),
             (Slalom::F180, _) => ('u', 'U'),
             (Slalom::Fv90, _) => ('p', 'P'),
+            (Slalom::Fs90, _) => ('L', 'R'),
         };
         match side {
             Side::Left => (left, 1),
@@ -129,16 +148,13 @@ pub enum Side {
     Right,
 }
 
-impl SlalomTimes {
-    /// Returns the duration of this turn, ms.
+impl Side {
+    /// Returns the other side.
     #[must_use]
-    pub const fn time_ms(&self, slalom: Slalom) -> u16 {
-        match slalom {
-            Slalom::F45 => self.f45_ms,
-            Slalom::F90 => self.f90_ms,
-            Slalom::F135 => self.f135_ms,
-            Slalom::F180 => self.f180_ms,
-            Slalom::Fv90 => self.fv90_ms,
+    pub const fn opposite(self) -> Self {
+        match self {
+            Self::Left => Self::Right,
+            Self::Right => Self::Left,
         }
     }
 }

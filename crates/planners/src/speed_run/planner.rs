@@ -1,6 +1,6 @@
 use tolman_maze::Cell;
 
-use super::{Extent, RunState, SpeedRun, SpeedRunMap, SpeedRunTimes};
+use super::{CellTimes, Extent, RunState, SpeedRun, SpeedRunMap, SpeedRunTimes};
 use crate::Passages;
 
 /// Keeps the best run from one start to the goals while the passages change.
@@ -8,11 +8,11 @@ use crate::Passages;
 /// Walls that turn up make no run faster. So as long as a best run found earlier can still be
 /// driven, it is a best run still, and nothing has to be searched.
 #[derive(Clone, Debug)]
-pub struct SpeedRunPlanner<'a, const N: usize> {
+pub struct SpeedRunPlanner<'a, const N: usize, C: CellTimes = [u32; 16]> {
     times: &'a SpeedRunTimes<N>,
     start: RunState,
     goals: &'a [Cell],
-    map: SpeedRunMap<N>,
+    map: SpeedRunMap<N, C>,
     /// Passages of the last search.
     searched: Option<Passages<N>>,
 }
@@ -26,7 +26,7 @@ pub enum Replanning {
     Searched,
 }
 
-impl<'a, const N: usize> SpeedRunPlanner<'a, N> {
+impl<'a, const N: usize, C: CellTimes> SpeedRunPlanner<'a, N, C> {
     /// Returns a planner that has seen no maze yet.
     #[must_use]
     pub const fn new(times: &'a SpeedRunTimes<N>, start: RunState, goals: &'a [Cell]) -> Self {
@@ -59,13 +59,13 @@ impl<'a, const N: usize> SpeedRunPlanner<'a, N> {
     /// Returns the duration of the best run, ms, or `None` if no way leads to a goal, or before the
     /// first update.
     #[must_use]
-    pub fn time_ms(&self) -> Option<u16> {
+    pub fn time_ms(&self) -> Option<u32> {
         self.map.time_ms(self.start)
     }
 
     /// Returns a best run on the passages of the last update.
     #[must_use]
-    pub fn run<'b>(&'b self, passages: &'b Passages<N>) -> SpeedRun<'b, N> {
+    pub fn run<'b>(&'b self, passages: &'b Passages<N>) -> SpeedRun<'b, N, C> {
         self.map.run(passages, self.times, self.start)
     }
 

@@ -1,23 +1,24 @@
 use tolman_maze::{Cell, Direction};
 
+use super::map::NEVER;
 use super::moves::{RunMove, RunStep};
 use super::state::{Facing, Node};
 use super::ways::{straights, turns};
-use super::{RunState, SpeedRunMap, SpeedRunTimes};
+use super::{CellTimes, RunState, SpeedRunMap, SpeedRunTimes};
 use crate::Passages;
 
 /// A speed run, as an iterator over its moves. See [`SpeedRunMap::run`].
 #[derive(Clone, Debug)]
-pub struct SpeedRun<'a, const N: usize> {
-    map: &'a SpeedRunMap<N>,
+pub struct SpeedRun<'a, const N: usize, C: CellTimes = [u32; 16]> {
+    map: &'a SpeedRunMap<N, C>,
     passages: &'a Passages<N>,
     times: &'a SpeedRunTimes<N>,
     at: Node,
 }
 
-impl<'a, const N: usize> SpeedRun<'a, N> {
+impl<'a, const N: usize, C: CellTimes> SpeedRun<'a, N, C> {
     pub(super) const fn new(
-        map: &'a SpeedRunMap<N>,
+        map: &'a SpeedRunMap<N, C>,
         passages: &'a Passages<N>,
         times: &'a SpeedRunTimes<N>,
         at: Node,
@@ -57,33 +58,38 @@ impl<'a, const N: usize> SpeedRun<'a, N> {
     }
 }
 
-impl<const N: usize> Iterator for SpeedRun<'_, N> {
+impl<const N: usize, C: CellTimes> Iterator for SpeedRun<'_, N, C> {
     type Item = RunStep;
 
-    /// Returns the first move after which exactly as much time is left as the map has. Straights
-    /// come first, from short to long, then turns. `None` at the goal, and if no move fits because
-    /// passages were closed or no goal is in reach.
+    /// Returns a move after which exactly as much time is left as the map has: the longest
+    /// straight, else the first turn. `None` at the goal, and if no move fits because passages were
+    /// closed or no goal is in reach.
     fn next(&mut self) -> Option<RunStep> {
         let (map, times, passages, from) = (self.map, self.times, self.passages, self.at);
         let left = map.time_from(from);
-        if left == 0 || left == u16::MAX {
+        if left == 0 || left == NEVER {
             return None;
         }
-        let fits = |to: Node, takes: u16| map.time_from(to).checked_add(takes) == Some(left);
-        let straight = straights(passages, from).find_map(|(length, to)| {
-            let cells = length as u16;
-            let (takes, run_move) = match from.facing() {
-                Facing::Straight(_) => (times.straight_ms(length), RunMove::Straight { cells }),
-                Facing::Diagonal(..) => (times.diagonal_ms(length), RunMove::Diagonal { cells }),
+        let has_halves = times.has_halves();
+        let fits = |to: Node, takes: u32| map.time_from(to) + takes == left;
+        let straight = straights(passages, from, has_halves).filter_map(|(length, to)| {
+            let length = length as u16;
+            let run_move = match from.facing() {
+                Facing::Diagonal(..) => RunMove::Diagonal { cells: length },
+                _ if has_halves => RunMove::Straight { half_cells: length },
+                _ => RunMove::Straight {
+                    half_cells: 2 * length,
+                },
             };
-            fits(to, takes?).then_some((run_move, to))
+            fits(to, times.of(run_move)?).then_some((run_move, to))
         });
         let turn = || {
             turns(passages, from).find_map(|(slalom, side, to)| {
-                fits(to, times.turn_ms(slalom)).then_some((RunMove::Turn { slalom, side }, to))
+                let run_move = RunMove::Turn { slalom, side };
+                fits(to, times.of(run_move)?).then_some((run_move, to))
             })
         };
-        let (run_move, to) = straight.or_else(turn)?;
+        let (run_move, to) = straight.last().or_else(turn)?;
         self.at = to;
         Some(RunStep {
             from: from.run_state::<N>(),

@@ -2,9 +2,10 @@ use tolman_maze::{Cell, Direction};
 
 /// Place and heading of a speed run between two moves.
 ///
-/// Straights begin and end in the middle of a cell, diagonals in the middle of an edge between two
-/// cells. These are the nodes of kerikun11/micromouse-maze-library (`StepMapSlalom::Index`),
-/// numbered by the cell ahead: twelve for every cell.
+/// Straights begin and end in the middle of a cell, or, beside turns within a cell, of an edge
+/// between two cells. Diagonals do in the middle of an edge. These are the nodes of
+/// kerikun11/micromouse-maze-library (`StepMapSlalom::Index`), numbered by the cell ahead, and four
+/// more: sixteen for every cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RunState {
     /// The mouse is in the middle of `cell`, looking to `heading`.
@@ -25,11 +26,19 @@ pub enum RunState {
         /// Direction in which the mouse leaves the cell.
         out: Direction,
     },
+    /// The mouse is on the edge through which it enters `cell`, looking to `heading`.
+    Edge {
+        /// The cell the mouse is about to enter.
+        cell: Cell,
+        /// Heading of the mouse.
+        heading: Direction,
+    },
 }
 
 /// The states of a cell are numbered. 0 … 3 are straight to north, east, south and west. From 4 on
-/// they are diagonal: twice the way in, plus one if it leaves to the right.
-pub(super) const STATES_PER_CELL: usize = 12;
+/// they are diagonal: twice the way in, plus one if it leaves to the right. From 12 on they are on
+/// an edge, looking to north, east, south and west.
+pub(super) const STATES_PER_CELL: usize = 16;
 
 /// A [`RunState`] by number, in a maze whose rows are `N` cells apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,9 +46,6 @@ pub(super) struct Node {
     pub(super) cell: usize,
     /// Number within the cell.
     pub(super) state: usize,
-    /// Number in the maze: the states of a cell follow those of the cell before. It could be
-    /// computed, and is kept because the search asks for it at every turn.
-    pub(super) number: usize,
 }
 
 /// Direction of a state within its cell.
@@ -49,6 +55,8 @@ pub(super) enum Facing {
     Straight(usize),
     /// A diagonal state: the mouse enters in the first direction and leaves in the second.
     Diagonal(usize, usize),
+    /// A state on an edge: the mouse looks in this direction.
+    Edge(usize),
 }
 
 pub(super) const fn left(direction: usize) -> usize {
@@ -67,12 +75,7 @@ impl Node {
     /// Returns the state of `cell` with this number within the cell.
     #[inline(always)]
     pub(super) const fn numbered(cell: usize, state: usize) -> Self {
-        let number = cell.wrapping_mul(STATES_PER_CELL).wrapping_add(state);
-        Self {
-            cell,
-            state,
-            number,
-        }
+        Self { cell, state }
     }
 
     pub(super) const fn straight(cell: usize, heading: usize) -> Self {
@@ -85,9 +88,14 @@ impl Node {
         Self::numbered(cell, 4 + 2 * into + turns_right as usize)
     }
 
+    pub(super) const fn edge(cell: usize, heading: usize) -> Self {
+        Self::numbered(cell, 12 + heading)
+    }
+
     pub(super) const fn facing(self) -> Facing {
         match self.state {
             heading @ 0..4 => Facing::Straight(heading),
+            edge @ 12.. => Facing::Edge(edge % 4),
             diagonal => {
                 let into = (diagonal - 4) / 2 % 4;
                 let out = if diagonal % 2 == 1 {
@@ -109,6 +117,9 @@ impl Node {
                 opposite(into),
                 opposite(out),
             ),
+            Facing::Edge(heading) => {
+                Self::edge(beside::<N>(self.cell, opposite(heading)), opposite(heading))
+            }
         }
     }
 
@@ -120,6 +131,7 @@ impl Node {
             RunState::Diagonal { cell, into, out } => {
                 Self::diagonal(index::<N>(cell), into.index(), out.index())
             }
+            RunState::Edge { cell, heading } => Self::edge(index::<N>(cell), heading.index()),
         }
     }
 
@@ -138,6 +150,10 @@ impl Node {
                 cell,
                 into: direction(into),
                 out: direction(out),
+            },
+            Facing::Edge(heading) => RunState::Edge {
+                cell,
+                heading: direction(heading),
             },
         }
     }

@@ -27,6 +27,9 @@ struct Ways {
     turns: [[Turn; SIDE]; 2],
     /// Sides and ends of the next two steps of a straight. On a diagonal they take turns.
     steps: [(u8, Offset); 2],
+    /// The same in steps of half a cell. Those to the middle of a cell have the side behind them,
+    /// which is open.
+    halves: [(u8, Offset); 2],
     /// 1 on a straight. A diagonal has to lead on where it ends.
     may_end: u8,
 }
@@ -38,11 +41,10 @@ struct Turn {
     end: Offset,
 }
 
-/// State at some distance from another, in cells and in numbers.
+/// State at some distance from another.
 #[derive(Clone, Copy)]
 struct Offset {
     cells: i16,
-    numbers: i16,
     state: u8,
 }
 
@@ -50,7 +52,6 @@ impl Offset {
     const fn between(from: Node, to: Node) -> Self {
         Self {
             cells: to.cell.wrapping_sub(from.cell) as i16,
-            numbers: to.number.wrapping_sub(from.number) as i16,
             state: to.state as u8,
         }
     }
@@ -60,7 +61,6 @@ impl Offset {
         Node {
             cell: node.cell.wrapping_add_signed(self.cells.into()),
             state: self.state.into(),
-            number: node.number.wrapping_add_signed(self.numbers.into()),
         }
     }
 }
@@ -84,7 +84,7 @@ const fn ends<const N: usize>(ahead: usize, aside: usize) -> [Node; 5] {
 
 impl Ways {
     const fn of<const N: usize>(state: usize) -> Self {
-        use Slalom::{F45, F90, F135, F180, Fv90};
+        use Slalom::{F45, F90, F135, F180, Fs90, Fv90};
         let from = Node::numbered(0, state);
         let (ahead, aside, are_turns, slaloms, steps) = match from.facing() {
             Facing::Straight(ahead) => {
@@ -102,9 +102,34 @@ impl Ways {
                 let slaloms = [F45, F135, Fv90, Fv90, Fv90];
                 (out, [opposite(into); 2], are_turns, slaloms, steps)
             }
+            // The side that the mouse enters by is open, as is one ahead of others.
+            Facing::Edge(heading) => {
+                let step = (opposite(heading), Node::straight(0, heading), from);
+                let aside = [left(heading), right(heading)];
+                let back = opposite(heading);
+                (back, aside, 0b00010 * BOTH as u16, [Fs90; 5], [step; 2])
+            }
+        };
+        let halves = match from.facing() {
+            Facing::Straight(heading) => {
+                let edge = Node::edge(beside::<N>(0, heading), heading);
+                let middle = Node::straight(edge.cell, heading);
+                [(heading, edge, from), (opposite(heading), middle, edge)]
+            }
+            Facing::Edge(heading) => {
+                let middle = Node::straight(0, heading);
+                let edge = Node::edge(beside::<N>(0, heading), heading);
+                [(opposite(heading), middle, from), (heading, edge, middle)]
+            }
+            Facing::Diagonal(..) => steps,
         };
         let [left, right] = aside;
-        let (left_ends, right_ends) = (ends::<N>(ahead, left), ends::<N>(ahead, right));
+        let (mut left_ends, mut right_ends) = (ends::<N>(ahead, left), ends::<N>(ahead, right));
+        if let Facing::Edge(_) = from.facing() {
+            left_ends[0] = from;
+            left_ends[1] = Node::edge(beside::<N>(0, left), left);
+            right_ends[1] = Node::edge(beside::<N>(0, right), right);
+        }
         Self {
             ahead: ahead as u8,
             back: opposite(ahead) as u8,
@@ -118,7 +143,8 @@ impl Ways {
                 turns_to(from, right_ends, slaloms, Side::Right),
             ],
             steps: [step(steps[0]), step(steps[1])],
-            may_end: matches!(from.facing(), Facing::Straight(_)) as u8,
+            halves: [step(halves[0]), step(halves[1])],
+            may_end: !matches!(from.facing(), Facing::Diagonal(..)) as u8,
         }
     }
 }
@@ -143,8 +169,7 @@ const fn turns_to(from: Node, ends: [Node; 5], slaloms: [Slalom; 5], side: Side)
     turns
 }
 
-/// Ways of each state, in mazes whose rows are `N` cells apart. There are more of them than states,
-/// so that four bits are always the number of one.
+/// Ways of each state, in mazes whose rows are `N` cells apart.
 struct Table<const N: usize>;
 
 impl<const N: usize> Table<N> {
@@ -211,12 +236,15 @@ pub(super) fn turns<const N: usize>(
     })
 }
 
-/// Returns every cell count `n` and end of the straights that lead on from `node`, nearest first.
+/// Returns every length and end of the straights that lead on from `node`, nearest first. Lengths
+/// are in cells; with `has_halves`, those of straights in half cells.
 pub(super) fn straights<const N: usize>(
     passages: &Passages<N>,
     node: Node,
+    has_halves: bool,
 ) -> impl Iterator<Item = (usize, Node)> {
-    line(passages, node).map_while(|(cells, to, is_open)| is_open.then_some((cells, to)))
+    line(passages, node, has_halves)
+        .map_while(|(cells, to, is_open)| is_open.then_some((cells, to)))
 }
 
 /// Returns what [`straights`] does, and goes on behind walls: each item says whether the straight
@@ -225,9 +253,10 @@ pub(super) fn straights<const N: usize>(
 pub(super) fn line<const N: usize>(
     passages: &Passages<N>,
     node: Node,
+    has_halves: bool,
 ) -> impl Iterator<Item = (usize, Node, bool)> {
     let ways = Table::<N>::ways(node);
-    let [mut step, mut then] = ways.steps;
+    let [mut step, mut then] = if has_halves { ways.halves } else { ways.steps };
     let mut to = node;
     (1..).map(move |cells| {
         let (side, end) = step;

@@ -37,6 +37,7 @@ fn round_trip<T: Serialize + DeserializeOwned + PartialEq + Debug>(value: &T) {
 fn what_is_saved_is_read_again() {
     round_trip(&SpeedRunConfig::classic());
     round_trip(&SpeedRunConfig::half_size());
+    round_trip(&SpeedRunConfig::beginner());
     round_trip(&MoveExplorerConfig::tuned());
     round_trip(&RolloutConfig::tuned());
     for unknown in [Unknown::Open, Unknown::Closed] {

@@ -6,9 +6,9 @@ use std::path::PathBuf;
 use proptest::prelude::*;
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Maze, Walls};
 use tolman_planners::speed_run::{
-    Decision, Extent, Replanning, RunMove, RunState, SpeedRunCertificate, SpeedRunCertificateError,
-    SpeedRunConfig, SpeedRunExplorer, SpeedRunMap, SpeedRunPlanner, SpeedRunTimes,
-    best_possible_ms,
+    Decision, Extent, Replanning, RunMove, RunState, Slalom, SlalomTurn, SlalomTurns,
+    SpeedRunCertificate, SpeedRunCertificateError, SpeedRunConfig, SpeedRunExplorer, SpeedRunMap,
+    SpeedRunPlanner, SpeedRunTimes, best_possible_ms,
 };
 use tolman_planners::{Passages, Unknown};
 
@@ -85,14 +85,15 @@ fn configs() -> impl Strategy<Value = SpeedRunConfig> {
     prop_oneof![
         Just(SpeedRunConfig::classic()),
         Just(SpeedRunConfig::half_size()),
+        Just(SpeedRunConfig::beginner()),
+        Just(SpeedRunConfig::classic().without_diagonals()),
         // Straights dear, turns cheap, and a top speed that is reached at once.
-        (300.0..420.0, 420.0..600.0, 250_u16..400).prop_map(|(slow, fast, turn)| {
+        (300.0..420.0, 420.0..600.0, factors()).prop_map(|(slow, fast, factors)| {
             let mut config = SpeedRunConfig::half_size();
             config.turn_speed_mm_s = slow;
             config.diagonal.top_speed_mm_s = fast;
             config.straight.top_speed_mm_s = slow;
-            config.slalom.f180_ms = turn;
-            config.slalom.fv90_ms = turn;
+            config.slalom = turns(&config, factors);
             config
         }),
     ]
@@ -101,20 +102,38 @@ fn configs() -> impl Strategy<Value = SpeedRunConfig> {
     })
 }
 
-/// Configurations with slow straights and turns that last anything.
+/// How many times its least time each turn takes, in the order of [`Slalom::ALL`].
+fn factors() -> impl Strategy<Value = [f64; 6]> {
+    prop::array::uniform6(1.0..3.0)
+}
+
+/// Returns turns that take so many times their least. A mouse does not make those of 2.7 or more.
+fn turns(config: &SpeedRunConfig, factors: [f64; 6]) -> SlalomTurns {
+    let turn = |number: usize| {
+        let least = Slalom::ALL[number].least_cells() * config.cell_mm / config.turn_speed_mm_s;
+        let time_ms = (1000.0 * least * factors[number]) as u32;
+        (factors[number] < 2.7).then_some(SlalomTurn::Timed { time_ms })
+    };
+    let mut turns = SlalomTurns::NONE;
+    (turns.f45, turns.f90, turns.f135) = (turn(0), turn(1), turn(2));
+    (turns.f180, turns.fv90, turns.fs90) = (turn(3), turn(4), turn(5));
+    turns
+}
+
+/// Configurations with slow straights, turns that last anything and differ to the left, and braking
+/// apart from accelerating.
 fn uneven_configs<const N: usize>() -> impl Strategy<Value = SpeedRunConfig> {
-    let turns = prop::array::uniform5(1_u16..900);
-    let speeds = (60.0..300.0, 1.0..1.5, 1.0..1.5);
-    (speeds, turns).prop_filter_map(
+    let speeds = (60.0..300.0, 1.0..1.5, 1.0..1.5, 1000.0..9000.0);
+    (speeds, factors(), factors()).prop_filter_map(
         "moves that last too differently are refused",
-        |((slow, straight, diagonal), [f45_ms, f90_ms, f135_ms, f180_ms, fv90_ms])| {
+        |((slow, straight, diagonal, braking), right, left)| {
             let mut config = SpeedRunConfig::half_size();
             config.turn_speed_mm_s = slow;
             config.straight.top_speed_mm_s = slow * straight;
+            config.straight.braking_mm_s2 = Some(braking);
             config.diagonal.top_speed_mm_s = slow * diagonal;
-            let slalom = &mut config.slalom;
-            (slalom.f45_ms, slalom.f90_ms, slalom.f135_ms) = (f45_ms, f90_ms, f135_ms);
-            (slalom.f180_ms, slalom.fv90_ms) = (f180_ms, fv90_ms);
+            config.slalom = turns(&config, right);
+            config.slalom_left = Some(turns(&config, left));
             SpeedRunTimes::<N>::new(&config).is_ok().then_some(config)
         },
     )
@@ -132,12 +151,12 @@ proptest! {
     ) {
         let times = SpeedRunTimes::<16>::new(&config).unwrap();
         let from = start_of(start, heading);
-        let mut map = SpeedRunMap::new();
+        let mut map = SpeedRunMap::<16>::new();
         let hoped = Passages::new(&sketch, Unknown::Open).unwrap();
         let expected = best_possible_ms(&sketch, &config, (start, heading), &goals);
         for extent in [Extent::Until(from), Extent::Everywhere] {
             map.search(&hoped, &times, &goals, extent);
-            prop_assert_eq!(map.time_ms(from).map(u32::from), expected);
+            prop_assert_eq!(map.time_ms(from), expected);
             let mut run = map.run(&hoped, &times, from);
             run.by_ref().for_each(drop);
             prop_assert_eq!(run.has_arrived(), expected.is_some());
@@ -152,16 +171,19 @@ proptest! {
     ) {
         let times = SpeedRunTimes::<12>::new(&config).unwrap();
         let from = start_of(start, heading);
-        let mut map = SpeedRunMap::new();
+        let mut map = SpeedRunMap::<12>::new();
+        let mut small = SpeedRunMap::<12, [u16; 16]>::new();
         let hoped = Passages::new(&sketch, Unknown::Open).unwrap();
-        let best = best_possible_ms(&sketch, &config, (start, heading), &goals);
-        let expected = best.filter(|best| *best < u32::from(u16::MAX));
+        let expected = best_possible_ms(&sketch, &config, (start, heading), &goals);
         for extent in [Extent::Until(from), Extent::Everywhere] {
             map.search(&hoped, &times, &goals, extent);
-            prop_assert_eq!(map.time_ms(from).map(u32::from), expected);
+            prop_assert_eq!(map.time_ms(from), expected);
             let mut run = map.run(&hoped, &times, from);
             run.by_ref().for_each(drop);
             prop_assert_eq!(run.has_arrived(), expected.is_some());
+            small.search(&hoped, &times, &goals, extent);
+            let held = expected.filter(|best| *best < u32::from(u16::MAX));
+            prop_assert_eq!(small.time_ms(from), held);
         }
     }
 
@@ -173,7 +195,7 @@ proptest! {
         let times = SpeedRunTimes::<16>::new(&config).unwrap();
         let from = start_of(start, heading);
         let known = Passages::new(&sketch, Unknown::Closed).unwrap();
-        let mut map = SpeedRunMap::new();
+        let mut map = SpeedRunMap::<16>::new();
         map.search(&known, &times, &goals, Extent::Everywhere);
         if let Some(time) = map.time_ms(from) {
             let run = map.run(&known, &times, from);
@@ -185,11 +207,11 @@ proptest! {
                 start,
                 heading,
                 moves: run.map(|step| step.run_move).collect(),
-                time_ms: time.into(),
+                time_ms: time,
             };
             let hoped = best_possible_ms(&sketch, &config, (start, heading), &goals).unwrap();
             let verdict = certificate.check(&sketch, &config, &goals);
-            prop_assert_eq!(verdict.is_ok(), hoped == u32::from(time), "{:?}", verdict);
+            prop_assert_eq!(verdict.is_ok(), hoped == time, "{:?}", verdict);
             certificate.time_ms += 1;
             prop_assert!(certificate.check(&sketch, &config, &goals).is_err());
         }
@@ -203,8 +225,8 @@ proptest! {
         let times = SpeedRunTimes::<16>::new(&SpeedRunConfig::classic()).unwrap();
         let from = start_of(start, heading);
         let mut sketch = Sketch::dark(truth.grid);
-        let mut planner = SpeedRunPlanner::new(&times, from, &goals);
-        let mut map = SpeedRunMap::new();
+        let mut planner = SpeedRunPlanner::<16>::new(&times, from, &goals);
+        let mut map = SpeedRunMap::<16>::new();
         for (x, y, forget) in order {
             let cell = Cell::new(x, y);
             if truth.grid.contains(cell) {
@@ -258,7 +280,7 @@ fn explore<const N: usize>(
     config: &SpeedRunConfig,
 ) -> Option<u32> {
     let times = SpeedRunTimes::<N>::new(config).unwrap();
-    let mut explorer = SpeedRunExplorer::new(&times, home, heading, goals);
+    let mut explorer = SpeedRunExplorer::<N>::new(&times, home, heading, goals);
     let mut sketch = Sketch::dark(maze.grid());
     let (mut at, mut looks) = (home, heading);
     let mut cells = 0;
@@ -282,10 +304,10 @@ fn explore<const N: usize>(
                     start: home,
                     heading,
                     moves: run.map(|step| step.run_move).collect(),
-                    time_ms: run_ms.into(),
+                    time_ms: run_ms,
                 };
                 assert_eq!(certificate.check(&sketch, config, goals), Ok(()));
-                return Some(run_ms.into());
+                return Some(run_ms);
             }
             Decision::Stuck => return None,
         }
@@ -345,7 +367,7 @@ fn no_run_leads_over_the_border() {
         (Cell::new(0, 0), Direction::West),
         (Cell::new(0, 0), Direction::South),
     ] {
-        let run_move = RunMove::Straight { cells: 1 };
+        let run_move = RunMove::Straight { half_cells: 2 };
         let certificate = SpeedRunCertificate {
             start: cell,
             heading,

@@ -15,7 +15,7 @@ fn refusals(width: u16, height: u16) -> [Option<TooLarge>; 6] {
     let explorer = MoveExplorer::<16>::new(MoveExplorerConfig::tuned(), START).unwrap();
     let mut rollouts = Rollouts::new(explorer.clone(), RolloutConfig::tuned()).unwrap();
     let mut explorer = explorer;
-    let mut competitor = SpeedRunExplorer::new(&times, START, Direction::East, &GOALS);
+    let mut competitor = SpeedRunExplorer::<16>::new(&times, START, Direction::East, &GOALS);
     [
         Passages::<16>::new(&maze, Unknown::Closed).err(),
         Passages::<16>::new(&maze, Unknown::Open).err(),

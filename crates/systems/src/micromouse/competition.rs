@@ -65,7 +65,7 @@ pub struct RunLeg {
     /// Move, with the state of the mouse before it.
     pub step: RunStep,
     /// Duration of the move, ms.
-    pub time_ms: u16,
+    pub time_ms: u32,
 }
 
 /// Reason why a maze cannot be explored.
@@ -198,7 +198,7 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
         Ok(CompetitionNext::Drive(side))
     }
 
-    fn exploration(&self, run_ms: u16) -> Result<SpeedRunExploration, TooLarge> {
+    fn exploration(&self, run_ms: u32) -> Result<SpeedRunExploration, TooLarge> {
         let Brief {
             start, ref goals, ..
         } = *self.brief;
@@ -216,7 +216,7 @@ impl<'a, const N: usize> CompetitionMouse<'a, N> {
             start,
             heading: self.run_heading,
             moves: run.iter().map(|leg| leg.step.run_move).collect(),
-            time_ms: run_ms.into(),
+            time_ms: run_ms,
         };
         let proof_after = self.proof_after.unwrap_or(self.cells);
         Ok(SpeedRunExploration {

@@ -70,7 +70,7 @@ pub(super) trait MouseResult: Send {
 /// # Errors
 /// If a maze is invalid, a mouse did not solve its maze, or a file cannot be written.
 pub(super) fn send_all<'a, T: MouseResult>(
-    Collection { mazes, unsound }: &'a mut Collection,
+    Collection { mazes, unsound, .. }: &'a mut Collection,
     jobs: Option<u16>,
     looks: &Looks,
     out: &mut dyn Write,

@@ -77,8 +77,10 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
         .or_bad_input()?;
     let limits = arguments.limits()?;
     let looks = &arguments.looks;
-    let Collection { mazes, mut unsound } =
-        Collection::read(arguments.maze.path().context("a maze")?, looks)?;
+    let path = arguments.maze.path().context("a maze")?;
+    let Collection {
+        mazes, mut unsound, ..
+    } = Collection::read(path, None, looks)?.known();
     let stop = interrupt::flag()?;
     let keeper = keep::keeper();
     let mouse = Launch {

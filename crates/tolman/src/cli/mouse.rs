@@ -19,7 +19,7 @@ use tolman_maze::Maze;
 use tolman_systems::micromouse::{Movement, Order, Rotation, Searcher, Until};
 
 use super::looks::Looks;
-use super::maze::Collection;
+use super::maze::{Collection, Marks};
 use super::mice::{MazePath, MouseResult, ON_GOAL, maze_or, send_all};
 use super::words::words;
 use super::{Failure, OrBadInput, Result, Unboxed, maze};
@@ -52,6 +52,8 @@ Examples:
 pub(super) struct Arguments {
     #[command(flatten)]
     maze: MazePath,
+    #[command(flatten)]
+    marks: Marks,
     /// Speak the protocol of the simulator mms on stdin and stdout
     #[arg(long, conflicts_with_all = ["search", "seed", "worst", "jobs", "json", "live", "svg", "trace", "replay"])]
     mms: bool,
@@ -111,7 +113,7 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     let search = arguments.search()?;
     let looks = &arguments.looks;
     send_all(
-        &mut Collection::read(path, looks)?,
+        &mut Collection::read(path, Some(&arguments.marks), looks)?.known(),
         arguments.jobs,
         looks,
         out,

@@ -1,9 +1,12 @@
 //! `tolman race`: a competition micromouse explores mazes, proves its fast run with diagonals, and
 //! writes its moves.
 
+mod half_known;
 mod params;
+mod route;
 mod shown;
 mod told;
+mod written;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -15,13 +18,14 @@ use tolman_planners::speed_run::SpeedRunConfig;
 use tolman_systems::micromouse::competition::{ExploreError, SpeedRunExploration};
 
 use super::looks::Looks;
-use super::maze::Collection;
+use super::maze::{Collection, Marks};
 use super::mice::{MazePath, maze_or, send_all};
 use super::mouse::Way;
 use super::words::words;
 use super::{OrBadInput, Result, maze};
 use params::Params;
 use shown::Shown;
+use written::{Route, WRITINGS, Writing};
 
 /// Sends a competition micromouse through mazes: it explores, proves its fast run, and writes its
 /// moves
@@ -38,8 +42,8 @@ The search is the way until the mouse is first at a goal. The proof is the way f
 --json writes one object per maze, one per line: the cells of search, proof and way home, and the run's moves with
 their times. Both ways are also given as the letters of kerikun11/micromouse-maze-library:
   exploring   S a cell ahead, L and R to the left and right, T back
-  running     S a cell, w half a diagonal; to the left and right z c F45, q Q F90, a d F135, u U F180, p P FV90;
-              Z C A D out of a diagonal
+  running     S a cell, s half a cell, w half a diagonal; to the left and right z c F45, q Q F90, a d F135, u U F180,
+              p P FV90, L R FS90 (within a cell); Z C A D out of a diagonal
 
 --live, --svg, --trace and --replay need a single maze.
 
@@ -47,14 +51,27 @@ Examples:
   tolman race mazes/grid/braided-2.txt --svg race.svg --replay race.html
   tolman race mazes/grid
   tolman race --template > mine.toml
-  tolman race mazes/grid/braided-2.txt --mouse mine.toml --json"
+  tolman race mazes/grid/braided-2.txt --mouse mine.toml --json
+  tolman race mazes/grid/braided-2.txt --no-diagonals --moves names"
 )]
 pub(super) struct Arguments {
     #[command(flatten)]
     maze: MazePath,
-    /// File with the mouse's driving parameters: times, speeds, accelerations, cell size
+    /// File with the mouse's driving parameters: times, speeds, accelerations, cell size. Given several times, each of
+    /// the mice races
     #[arg(long, value_name = "PARAMS.toml")]
-    mouse: Option<PathBuf>,
+    mouse: Vec<PathBuf>,
+    #[command(flatten)]
+    marks: Marks,
+    /// Time and check this way instead of exploring: F, L, R and B for each cell, or a letter for each move
+    #[arg(long, value_name = "LETTERS", conflicts_with_all = ["live", "svg", "trace", "replay"])]
+    route: Option<String>,
+    /// How the run's moves are written
+    #[arg(long, value_name = "WRITING", default_value = "letters", value_parser = words(WRITINGS))]
+    moves: Writing,
+    /// Drive no diagonals; without --mouse, as a first mouse with turns of 90° within a cell only
+    #[arg(long)]
+    no_diagonals: bool,
     /// Print a file for --mouse that explains every number
     #[arg(long, value_name = "KIND", num_args = 0..=1, default_missing_value = "classic", value_parser = words(KINDS),
         conflicts_with_all = ["mouse", "jobs", "json", "live", "svg", "trace", "replay"])]
@@ -71,15 +88,24 @@ pub(super) struct Arguments {
 enum Kind {
     Classic,
     HalfSize,
+    Beginner,
 }
 
-const KINDS: [(&str, &str, Kind); 2] = [
+const KINDS: [(&str, &str, Kind); 3] = [
     ("classic", "Cells of 180 mm, up to 16 × 16", Kind::Classic),
     ("half-size", "Cells of 90 mm, up to 32 × 32", Kind::HalfSize),
+    (
+        "beginner",
+        "Cells of 180 mm, no diagonals, turns within a cell",
+        Kind::Beginner,
+    ),
 ];
 
 /// The mouse's exploration of a maze.
 struct Raced {
+    /// File of the mouse, if several race.
+    driver: Option<String>,
+    writing: Writing,
     config: SpeedRunConfig,
     /// The exploration; `None` if there is no way to a goal that the mouse can drive.
     explored: Option<SpeedRunExploration>,
@@ -89,25 +115,68 @@ struct Raced {
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     if let Some(kind) = arguments.template {
-        return Ok(out.write_all(params::template(kind.config()).as_bytes())?);
+        let (config, source) = kind.config();
+        return Ok(out.write_all(params::template(config, source).as_bytes())?);
     }
     let Some(path) = arguments.maze.path() else {
         return Err(anyhow!("name a maze or a folder of mazes")).or_bad_input();
     };
-    let params = Params::read(arguments.mouse.as_deref())?;
+    let mice: Vec<Params> = match arguments.mouse.as_slice() {
+        [] => vec![Params::read(None, arguments.no_diagonals)?],
+        files => files
+            .iter()
+            .map(|file| Params::read(Some(file), arguments.no_diagonals))
+            .collect::<Result<_>>()?,
+    };
     let looks = &arguments.looks;
-    send_all(
-        &mut Collection::read(path, looks)?,
-        arguments.jobs,
-        looks,
-        out,
-        |file, maze| send(file, maze, &params, looks),
-        |_, _| Ok(()),
-    )
+    let told = (looks, arguments.moves);
+    let mut collection = Collection::read(path, Some(&arguments.marks), looks)?;
+    if let Some(route) = &arguments.route {
+        let route = Route::read(route)?;
+        for ((file, maze), params) in pairs(&collection.mazes, &mice) {
+            route::tell(file, maze, &params.config_for(maze), &route, told, out)?;
+        }
+        return collection.known().unsound.complain(1);
+    }
+    for ((file, half), params) in pairs(&collection.half_known, &mice) {
+        half_known::tell(file, half, &params.config_for(&half.maze), told, out)?;
+    }
+    if collection.mazes.is_empty() && !collection.half_known.is_empty() {
+        return collection.unsound.complain(collection.half_known.len());
+    }
+    if mice.len() > 1 {
+        looks.of_one(path, mice.len())?;
+    }
+    for (number, params) in mice.iter().enumerate() {
+        let driver = arguments.mouse.get(number).filter(|_| mice.len() > 1);
+        let driver = driver.map(|file| file.display().to_string());
+        send_all(
+            &mut collection,
+            arguments.jobs,
+            looks,
+            out,
+            |file, maze| send(file, maze, params, (driver.clone(), arguments.moves), looks),
+            |_, _| Ok(()),
+        )?;
+    }
+    Ok(())
+}
+
+/// Returns every maze with every mouse.
+fn pairs<'a, M, P>(mazes: &'a [M], mice: &'a [P]) -> impl Iterator<Item = (&'a M, &'a P)> {
+    mazes
+        .iter()
+        .flat_map(|maze| mice.iter().map(move |mouse| (maze, mouse)))
 }
 
 /// Explores a maze, and shows the way meanwhile if that is asked for.
-fn send(file: &Path, maze: &Maze, params: &Params, looks: &Looks) -> Result<(Raced, Option<Way>)> {
+fn send(
+    file: &Path,
+    maze: &Maze,
+    params: &Params,
+    (driver, writing): (Option<String>, Writing),
+    looks: &Looks,
+) -> Result<(Raced, Option<Way>)> {
     let config = params.config_for(maze);
     let mut cells = Vec::new();
     let mut way = Shown::new(file, maze, &config, looks)?;
@@ -126,6 +195,8 @@ fn send(file: &Path, maze: &Maze, params: &Params, looks: &Looks) -> Result<(Rac
         way.run(&explored.run);
     }
     let raced = Raced {
+        driver,
+        writing,
         config,
         search_path: told::search_path(maze, &cells),
         explored,
@@ -134,10 +205,21 @@ fn send(file: &Path, maze: &Maze, params: &Params, looks: &Looks) -> Result<(Rac
 }
 
 impl Kind {
-    const fn config(self) -> SpeedRunConfig {
+    /// Returns the values of a template, and where they come from.
+    const fn config(self) -> (SpeedRunConfig, &'static str) {
         match self {
-            Self::Classic => SpeedRunConfig::classic(),
-            Self::HalfSize => SpeedRunConfig::half_size(),
+            Self::Classic => (
+                SpeedRunConfig::classic(),
+                "The curves of the half-size template at twice the size, with the same lateral acceleration.",
+            ),
+            Self::HalfSize => (
+                SpeedRunConfig::half_size(),
+                "Values of kerikun11/micromouse-maze-library, StepMapSlalom::EdgeCost::RunParameter.",
+            ),
+            Self::Beginner => (
+                SpeedRunConfig::beginner(),
+                "FS90 of kerikun11/micromouse-maze-library at twice the size, with the same lateral acceleration.",
+            ),
         }
     }
 }

@@ -65,14 +65,21 @@ fn a_mouse_is_driven_as_its_file_says() {
     let usual = run_ms("usual.toml", &template);
     let small = tolman_in(&folder, &["race", "--template", "half-size"]).done();
     assert!(run_ms("small.toml", &small) < usual, "half the way");
-    let slow = template.replace("f90_ms = 375", "f90_ms = 475");
+    let slow = template.replace("f90 = 531", "f90 = 631");
     assert_ne!(slow, template);
     assert!(run_ms("slow.toml", &slow) >= usual);
     for (text, parts) in [
         ("cell = 3", &["bad.toml", "cell", "--template"][..]),
         (
-            &template.replace("= 420.0", "= 0"),
+            &template.replace("= 594.0", "= 0"),
             &["turn_speed_mm_s", "above 0"],
+        ),
+        (
+            &template.replace("f90 = 531", "f90_ms = 427"),
+            &[
+                "bad.toml",
+                "F90 takes at least 428 ms at 594 mm/s: its shortest way is 255 mm",
+            ],
         ),
     ] {
         std::fs::write(folder.join("bad.toml"), text).unwrap();
@@ -128,6 +135,154 @@ fn one_bad_maze_in_a_folder_does_not_void_the_others() {
             assert!(told.err.contains(skipped), "{}", told.err);
         }
     }
+}
+
+/// Stairs, on which a first mouse turns in every cell.
+const STAIRS: &str = "\
+o---o---o---o---o
+|         G |   |
+o   o---o---o---o
+|       |   |   |
+o---o   o---o---o
+|       |   |   |
+o   o---o---o---o
+| S |   |   |   |
+o---o---o---o---o
+";
+
+#[test]
+fn a_first_mouse_turns_within_cells() {
+    let folder = with_maze("race-beginner");
+    std::fs::write(folder.join("stairs.txt"), STAIRS).unwrap();
+    let race = |more: &[&str]| {
+        let race = ["race", "stairs.txt", "--no-diagonals"];
+        tolman_in(&folder, &[&race[..], more].concat()).done()
+    };
+    let told = race(&["--moves", "cells"]);
+    assert!(told.contains("proven: FRLLRR;"), "{told}");
+    let told: Value = serde_json::from_str(&race(&["--json"])).unwrap();
+    let moves = told["moves"].as_array().unwrap();
+    let fs90 = moves.iter().filter(|one| one["move"] == "FS90");
+    assert_eq!(fs90.count(), 5, "{told}");
+    // The middle of the start, and the side that the first turn begins on.
+    assert_eq!(moves[0]["from"]["half_x"], 1);
+    assert_eq!(moves[1]["from"]["half_y"], 2);
+    let beginner = tolman_in(&folder, &["race", "--template", "beginner"]).done();
+    std::fs::write(folder.join("curves.toml"), &beginner).unwrap();
+    let place = beginner.replace("fs90 = 406", "in_place_ms = 300");
+    std::fs::write(folder.join("place.toml"), &place).unwrap();
+    let told = race(&[
+        "--mouse",
+        "curves.toml",
+        "--mouse",
+        "place.toml",
+        "--moves",
+        "names",
+    ]);
+    assert!(told.contains("curves.toml: run of"), "{told}");
+    assert!(
+        told.contains("SS90SR, SS90SL") && told.contains("IP90R, IP90L"),
+        "{told}"
+    );
+    let none = beginner.replace("fs90 = 406", "");
+    std::fs::write(folder.join("none.toml"), none).unwrap();
+    let bad = [
+        "race",
+        "stairs.txt",
+        "--no-diagonals",
+        "--mouse",
+        "none.toml",
+    ];
+    tolman_in(&folder, &bad).refused(2, &["none.toml", "in_place_ms"]);
+}
+
+#[test]
+fn a_builders_route_is_timed_and_checked() {
+    let folder = with_maze("race-route");
+    std::fs::write(folder.join("stairs.txt"), STAIRS).unwrap();
+    let route = |route: &str| {
+        tolman_in(
+            &folder,
+            &["race", "stairs.txt", "--no-diagonals", "--route", route],
+        )
+    };
+    let by_cells = route("FRLLRR").done();
+    assert!(by_cells.contains("0.000 s less"), "{by_cells}");
+    assert_eq!(route("sRLLRRs").done(), by_cells);
+    route("FRLL").refused(1, &["not a goal"]);
+    route("FF").refused(1, &["cell 2", "wall"]);
+    route("SS").refused(1, &["cannot be driven", "not known to be open"]);
+    route("FX").refused(2, &["`X`"]);
+}
+
+#[test]
+fn a_half_known_maze_is_planned_in() {
+    let folder = with_maze("race-half");
+    let half = STAIRS.replace(
+        "|       |   |   |\no   o---o---o---o\n| S",
+        "|       |   |   |\no . o---o---o---o\n| S",
+    );
+    std::fs::write(folder.join("half.txt"), half).unwrap();
+    let told = tolman_in(&folder, &["race", "half.txt"]).done();
+    assert!(
+        told.contains("1 unknown wall: no run is known; the best possible"),
+        "{told}"
+    );
+    tolman_in(&folder, &["mouse", "half.txt"]).refused(2, &["unknown walls", "tolman race"]);
+}
+
+#[test]
+fn start_and_goal_may_be_given() {
+    let folder = with_maze("race-marks");
+    std::fs::write(folder.join("bare.txt"), MAZE.replace('G', " ")).unwrap();
+    let told = tolman_in(&folder, &["race", "bare.txt"]);
+    assert!(
+        told.err.contains("marks no goal: the middle is taken"),
+        "{}",
+        told.err
+    );
+    let marked = [
+        "race", "bare.txt", "--goal", "3,3", "--start", "0,3,east", "--moves", "names",
+    ];
+    let told = tolman_in(&folder, &marked).done();
+    assert!(told.contains("FWD 540 mm;"), "{told}");
+    tolman_in(&folder, &["race", "bare.txt", "--goal", "4,0"]).refused(2, &["--goal (4, 0)"]);
+}
+
+#[test]
+fn a_long_run_is_a_run() {
+    let folder = with_maze("race-long");
+    // Thirty-two rows of 31 cells, each left at its end for the next.
+    let (cells, rows) = (31, 32);
+    let line = |open_at: Option<usize>| -> String {
+        let wall = |x| if open_at == Some(x) { "o   " } else { "o---" };
+        (0..cells).map(wall).collect::<String>() + "o\n"
+    };
+    let mut maze = line(None);
+    for row in 0..rows {
+        let mark = if row == 0 {
+            "| G "
+        } else if row == rows - 1 {
+            "| S "
+        } else {
+            "|   "
+        };
+        maze += &format!("{mark}{}|\n", " ".repeat(4 * cells - 4));
+        let end = if row % 2 == 0 { cells - 1 } else { 0 };
+        maze += &line(Some(end).filter(|_| row < rows - 1));
+    }
+    std::fs::write(folder.join("long.txt"), maze).unwrap();
+    let beginner = tolman_in(&folder, &["race", "--template", "beginner"]).done();
+    let slow = beginner.replace("= 1500.0", "= 400.0");
+    std::fs::write(folder.join("slow.toml"), slow).unwrap();
+    let told = tolman_in(
+        &folder,
+        &["race", "long.txt", "--mouse", "slow.toml", "--json"],
+    )
+    .done();
+    let told: Value = serde_json::from_str(&told).unwrap();
+    assert!(told["run_ms"].as_u64().unwrap() > 400_000, "{told}");
+    assert_eq!(told["proven"], true);
 }
 
 /// Returns a row of cells.

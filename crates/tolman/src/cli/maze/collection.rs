@@ -9,7 +9,8 @@ use indicatif::ProgressBar;
 use rayon::prelude::*;
 use tolman_maze::{Cell, Direction, Maze, MazeFile};
 
-use super::input;
+use super::marks::Marks;
+use super::{OrBadInput, input};
 use crate::cli::bar::busy;
 use crate::cli::looks::Looks;
 use crate::cli::{Failure, Result, failure::note};
@@ -17,6 +18,8 @@ use crate::cli::{Failure, Result, failure::note};
 /// The valid mazes of a file or a folder, by name, and the failures of the others.
 pub(in crate::cli) struct Collection {
     pub(in crate::cli) mazes: Vec<(PathBuf, Maze)>,
+    /// Mazes with unknown walls.
+    pub(in crate::cli) half_known: Vec<(PathBuf, MazeFile)>,
     pub(in crate::cli) unsound: Unsound,
 }
 
@@ -26,37 +29,77 @@ impl Collection {
     ///
     /// # Errors
     /// If there is no maze for mice, or `looks` asks to show one run and there are several.
-    pub(in crate::cli) fn read(path: &Path, looks: &Looks) -> Result<Self> {
-        let mut mazes = Vec::new();
+    pub(in crate::cli) fn read(path: &Path, marks: Option<&Marks>, looks: &Looks) -> Result<Self> {
+        let (mut mazes, mut half_known) = (Vec::new(), Vec::new());
         let mut unsound = Unsound::default();
         for file in input::files(path)? {
-            match input::read(&file) {
-                Ok(read) => match for_robots(&read) {
+            match marked(&file, marks) {
+                Ok(mut read) => match for_robots(&read) {
                     Some(reason) if path.is_dir() => {
                         let name = input::name(&file);
                         note(&format!("{name} is a maze for robots ({reason}): skipped"));
                     }
                     _ => {
-                        let mut maze = read.maze;
                         // As in contests of mice.
-                        let start = maze.start().unwrap_or((Cell::new(0, 0), Direction::North));
-                        maze.set_start(Some(start));
-                        mazes.push((file, maze));
+                        let start = read
+                            .maze
+                            .start()
+                            .unwrap_or((Cell::new(0, 0), Direction::North));
+                        read.maze.set_start(Some(start));
+                        if read.goal_is_assumed {
+                            let name = input::name(&file);
+                            note(&format!(
+                                "{name} marks no goal: the middle is taken; --goal gives another"
+                            ));
+                        }
+                        match read.unknown.is_empty() {
+                            true => mazes.push((file, read.maze)),
+                            false => half_known.push((file, read)),
+                        }
                     }
                 },
                 Err(failure) => unsound.push(failure),
             }
         }
-        if mazes.is_empty() && unsound.len() == 0 {
+        if mazes.is_empty() && half_known.is_empty() && unsound.len() == 0 {
             return Err(Failure::BadInput(anyhow!(
                 "{} holds no maze for a mouse: name a folder of such mazes, or a file",
                 path.display()
             )));
         }
-        looks.of_one(path, mazes.len() + unsound.len())?;
+        looks.of_one(path, mazes.len() + half_known.len() + unsound.len())?;
         looks.check()?;
-        Ok(Self { mazes, unsound })
+        Ok(Self {
+            mazes,
+            half_known,
+            unsound,
+        })
     }
+
+    /// Returns the mazes without those that have unknown walls, which are told of as unfit.
+    pub(in crate::cli) fn known(mut self) -> Self {
+        for (file, _) in self.half_known.drain(..) {
+            let name = input::name(&file);
+            self.unsound.push(Failure::BadInput(anyhow!(
+                "{name} has unknown walls: give it to `tolman race`, which tells what is known"
+            )));
+        }
+        self
+    }
+}
+
+/// Reads a valid maze whose start and goal the command line may give.
+fn marked(file: &Path, marks: Option<&Marks>) -> Result<MazeFile> {
+    let Some(marks) = marks.filter(|marks| !marks.are_none()) else {
+        return input::read(file);
+    };
+    let mut read = input::parse(file)?;
+    marks.put(&mut read)?;
+    read.maze
+        .check()
+        .with_context(|| input::name(file))
+        .or_bad_input()?;
+    Ok(read)
 }
 
 /// Returns why a maze suits only robots, or `None` if it suits a mouse. A maze for mice has a

@@ -103,9 +103,14 @@ pub(in crate::cli) fn text(path: &Path) -> Result<String> {
 
 /// Returns the text of a file, or of stdin if the path is `-`.
 pub(in crate::cli) fn source(path: &Path) -> Result<String, SourceError> {
-    match is_stdin(path) {
-        true => input::text_of(io::stdin().lock()),
-        false => input::text(path),
+    let bytes = match is_stdin(path) {
+        true => input::bytes_of(io::stdin().lock()),
+        false => input::bytes(path),
+    }?;
+    // Binary mazes are no text.
+    match tolman_maze::maz_text(&bytes) {
+        Some(text) => Ok(text),
+        None => input::text_of(&*bytes),
     }
 }
 

@@ -3,10 +3,13 @@
 mod check;
 mod collection;
 mod convert;
+mod diff;
 mod distinct;
 mod generate;
 mod input;
+mod marks;
 mod output;
+mod rules;
 mod show;
 mod summary;
 
@@ -17,13 +20,15 @@ use clap::Subcommand;
 use super::{App, Failure, OrBadInput, Result, file};
 pub(super) use collection::{Collection, each};
 pub(super) use input::{is_stdin, name, read, source, text, world_name};
+pub(super) use marks::Marks;
 
-/// Shows, checks, converts and generates mazes
+/// Shows, checks, compares, converts and generates mazes
 #[derive(Subcommand)]
 pub(super) enum Verb {
     Show(show::Arguments),
     Check(check::Arguments),
     Convert(convert::Arguments),
+    Diff(diff::Arguments),
     Generate(generate::Arguments),
     Distinct(distinct::Arguments),
 }
@@ -34,6 +39,7 @@ impl Verb {
             Self::Show(arguments) => show::carry_out(&arguments, out),
             Self::Check(arguments) => check::carry_out(&arguments, out),
             Self::Convert(arguments) => convert::carry_out(&arguments, out),
+            Self::Diff(arguments) => diff::carry_out(&arguments, out),
             Self::Generate(arguments) => generate::carry_out(app, &arguments, out),
             Self::Distinct(arguments) => distinct::carry_out(&arguments, out),
         }

@@ -17,7 +17,7 @@ pub(super) struct MazeOutput {
     #[arg(long, value_name = "FORMAT", default_value = "tolman", value_parser = formats())]
     to: Format,
     /// File to write, instead of standard output
-    #[arg(long, value_name = "FILE", value_parser = outputs::file(&["maze", "txt", "num", "map"]))]
+    #[arg(long, value_name = "FILE", value_parser = outputs::file(&["maze", "txt", "num", "map", "maz", "hex"]))]
     out: Option<Output>,
 }
 

@@ -17,6 +17,10 @@ pub(super) struct Summary {
     corridor_width_m: Option<f64>,
     start: Option<Start>,
     goals: Vec<[u16; 2]>,
+    /// Whether no goal is marked, and the middle was taken.
+    goal_is_assumed: bool,
+    /// Number of walls that may stand or not.
+    unknown_walls: usize,
     dead_ends: usize,
     junctions: usize,
     /// Number of cells that are open to some side but have no way to a goal.
@@ -52,6 +56,8 @@ impl Summary {
                 heading: heading.to_string(),
             }),
             goals: maze.goals().iter().copied().map(pair).collect(),
+            goal_is_assumed: read.goal_is_assumed,
+            unknown_walls: read.unknown.len(),
             dead_ends: of_degree(|ways| ways == 1),
             junctions: of_degree(|ways| ways > 2),
             sealed: maze.sealed().count(),
@@ -82,11 +88,23 @@ impl fmt::Display for Summary {
         let (goals, dead_ends, junctions) = (self.goals.len(), self.dead_ends, self.junctions);
         write!(
             formatter,
-            ", {}, {}, {}",
+            ", {}{}, {}, {}",
             counted(goals, "goal cell"),
+            if self.goal_is_assumed {
+                " (the middle: none is marked)"
+            } else {
+                ""
+            },
             counted(dead_ends, "dead end"),
             counted(junctions, "junction")
         )?;
+        if self.unknown_walls > 0 {
+            write!(
+                formatter,
+                ", {}",
+                counted(self.unknown_walls, "unknown wall")
+            )?;
+        }
         if self.sealed > 0 {
             write!(formatter, ", {} sealed off", counted(self.sealed, "cell"))?;
         }

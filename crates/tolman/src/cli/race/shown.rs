@@ -79,8 +79,9 @@ impl Shown {
         let (mut cell, on_side) = match leg.step.from {
             RunState::Straight { cell, .. } => (cell, None),
             RunState::Diagonal { cell, into, .. } => (cell, cell.beyond(into.opposite())),
+            RunState::Edge { cell, heading } => (cell, cell.beyond(heading.opposite())),
         };
-        // A diagonal begins on the side through which it enters its cell.
+        // A state on a side is on that through which the mouse enters its cell.
         let mut at = on_side.map_or(self.middle(cell), |before| self.between(before, cell));
         let mut poses = Vec::new();
         for side in leg.step.directions() {
@@ -90,8 +91,7 @@ impl Shown {
             self.push(&mut poses, &mut at, self.between(cell, beyond));
             cell = beyond;
         }
-        // All moves but diagonals end in the middle of a cell.
-        if !matches!(next, Some(RunState::Diagonal { .. })) {
+        if matches!(next, None | Some(RunState::Straight { .. })) {
             self.push(&mut poses, &mut at, self.middle(cell));
         }
         poses

@@ -5,11 +5,12 @@ use std::path::Path;
 use anyhow::Error;
 use serde_json::{Value, json};
 use tolman_maze::{Cell, Direction, Maze};
-use tolman_planners::speed_run::{RunMove, RunState, Side, Slalom};
+use tolman_planners::speed_run::{RunMove, RunState, Side};
 use tolman_systems::micromouse::competition::{RunLeg, SpeedRunExploration};
 
 use super::Raced;
 use super::shown::side_towards;
+use super::written::Writing;
 use crate::cli::mice::{MouseResult, ON_GOAL};
 
 impl MouseResult for Raced {
@@ -19,6 +20,65 @@ impl MouseResult for Raced {
     }
 
     fn outcome(&self) -> String {
+        let of = self
+            .driver
+            .as_ref()
+            .map_or_else(String::new, |driver| format!("{driver}: "));
+        format!("{of}{}", self.alone())
+    }
+
+    fn json(&self) -> Result<Value, Error> {
+        let mut line = json!({
+            "mouse": self.config,
+            "mouse_file": self.driver,
+            "proven": self.has_solved(),
+            "search_path": self.search_path,
+        });
+        if let Some(explored) = &self.explored {
+            line["cells"] = json!({
+                "all": explored.cells,
+                "search": explored.search_cells,
+                "proof": explored.proof_cells,
+                "home": home(explored),
+            });
+            line["run_ms"] = json!(self.run_ms(explored));
+            line["start_ms"] = json!(self.config.start_ms());
+            line["stop_ms"] = json!(self.config.stop_ms());
+            line["search_ms"] = json!(self.search_ms());
+            line["run_path"] = json!(Writing::Letters.of(&explored.run, &self.config));
+            line["moves"] = explored.run.iter().map(move_json).collect();
+        }
+        Ok(line)
+    }
+
+    fn summary(raced: &[(&Path, Self)]) -> String {
+        let explored: Vec<(&Self, &SpeedRunExploration)> = raced
+            .iter()
+            .filter_map(|(_, raced)| Some((raced, raced.explored.as_ref()?)))
+            .collect();
+        let mean = |value: fn(&Self, &SpeedRunExploration) -> u32| {
+            let sum: f64 = explored
+                .iter()
+                .map(|(raced, explored)| f64::from(value(raced, explored)))
+                .sum();
+            sum / explored.len().max(1) as f64
+        };
+        let proven = raced.iter().filter(|(_, raced)| raced.has_solved()).count();
+        format!(
+            "{} mazes: {proven} proven; mean run {:.3} s, {:.1} cells explored: search {:.1}, proof {:.1}, home {:.1}",
+            raced.len(),
+            mean(Self::run_ms) / 1000.0,
+            mean(|_, explored| explored.cells),
+            mean(|_, explored| explored.search_cells),
+            mean(|_, explored| explored.proof_cells),
+            mean(|_, explored| home(explored)),
+        )
+    }
+}
+
+impl Raced {
+    /// Returns the outcome without the mouse's name.
+    fn alone(&self) -> String {
         let Some(explored) = &self.explored else {
             return "no way that the mouse can drive leads to a goal".to_owned();
         };
@@ -36,54 +96,38 @@ impl MouseResult for Raced {
             return format!("{ON_GOAL}: 0.000 s, {proven}");
         }
         format!(
-            "run of {:.3} s, {proven}: {}; {cells} cells explored: search {search_cells}, proof {proof_cells}, home {}",
-            f64::from(explored.certificate.time_ms) / 1000.0,
-            letters(&explored.run),
+            "run of {:.3} s, {proven}: {}; {cells} cells explored{}: search {search_cells}, proof {proof_cells}, home {}",
+            f64::from(self.run_ms(explored)) / 1000.0,
+            self.writing.of(&explored.run, &self.config),
+            match self.search_ms() {
+                Some(ms) => format!(" in {:.1} s", ms as f64 / 1000.0),
+                None => String::new(),
+            },
             home(explored),
         )
     }
 
-    fn json(&self) -> Result<Value, Error> {
-        let mut line = json!({
-            "mouse": self.config,
-            "proven": self.has_solved(),
-            "search_path": self.search_path,
-        });
-        if let Some(explored) = &self.explored {
-            line["cells"] = json!({
-                "all": explored.cells,
-                "search": explored.search_cells,
-                "proof": explored.proof_cells,
-                "home": home(explored),
-            });
-            line["run_ms"] = json!(explored.certificate.time_ms);
-            line["run_path"] = json!(letters(&explored.run));
-            line["moves"] = explored.run.iter().map(move_json).collect();
+    /// Returns the duration of the run from rest to rest, ms.
+    fn run_ms(&self, explored: &SpeedRunExploration) -> u32 {
+        match explored.run.is_empty() {
+            true => 0,
+            false => self.config.start_ms() + explored.certificate.time_ms + self.config.stop_ms(),
         }
-        Ok(line)
     }
 
-    fn summary(raced: &[(&Path, Self)]) -> String {
-        let explored: Vec<&SpeedRunExploration> = raced
-            .iter()
-            .filter_map(|(_, raced)| raced.explored.as_ref())
-            .collect();
-        let mean = |value: fn(&SpeedRunExploration) -> u32| {
-            let sum: f64 = explored
-                .iter()
-                .map(|explored| f64::from(value(explored)))
-                .sum();
-            sum / explored.len().max(1) as f64
+    /// Returns the duration of the exploration, ms, if the mouse's file says how fast it searches.
+    fn search_ms(&self) -> Option<u64> {
+        let pace = self.config.search?;
+        let of = |letter| match letter {
+            'S' => pace.ahead_ms,
+            'T' => pace.back_ms,
+            _ => pace.turn_ms,
         };
-        let proven = raced.iter().filter(|(_, raced)| raced.has_solved()).count();
-        format!(
-            "{} mazes: {proven} proven; mean run {:.3} s, {:.1} cells explored: search {:.1}, proof {:.1}, home {:.1}",
-            raced.len(),
-            mean(|explored| explored.certificate.time_ms) / 1000.0,
-            mean(|explored| explored.cells),
-            mean(|explored| explored.search_cells),
-            mean(|explored| explored.proof_cells),
-            mean(home),
+        Some(
+            self.search_path
+                .chars()
+                .map(|letter| u64::from(of(letter)))
+                .sum(),
         )
     }
 }
@@ -94,32 +138,42 @@ fn home(explored: &SpeedRunExploration) -> u32 {
     explored.cells.saturating_sub(before)
 }
 
-/// Returns the run in letters.
-fn letters(run: &[RunLeg]) -> String {
-    let letters = run.iter().map(|leg| leg.step.letters());
-    letters
-        .flat_map(|(letter, count)| core::iter::repeat_n(letter, count.into()))
-        .collect()
-}
-
 fn move_json(leg: &RunLeg) -> Value {
-    let (cell, heading_deg) = match leg.step.from {
-        RunState::Straight { cell, heading } => (cell, degrees(heading)),
-        RunState::Diagonal { cell, into, out } => {
-            let half = if out == into.left() { 45 } else { -45 };
-            (cell, degrees(into) + half)
-        }
-    };
+    let (half_x, half_y, heading_deg) = half_cells(leg.step.from);
     let mut line = json!({
         "move": name(leg.step.run_move),
-        "from": { "x": cell.x, "y": cell.y, "heading_deg": heading_deg },
+        "from": { "half_x": half_x, "half_y": half_y, "heading_deg": heading_deg },
         "time_ms": leg.time_ms,
     });
     match leg.step.run_move {
-        RunMove::Straight { cells } | RunMove::Diagonal { cells } => line["cells"] = json!(cells),
+        RunMove::Straight { half_cells } => line["half_cells"] = json!(half_cells),
+        RunMove::Diagonal { cells } => line["cells"] = json!(cells),
         RunMove::Turn { side, .. } => line["side"] = json!(side_name(side)),
     }
     line
+}
+
+/// Returns the place of a state in half cells from the maze's south-west corner to the east and
+/// north, and its heading in degrees, counter-clockwise from east. Middles of cells have two odd
+/// coordinates, middles of sides one.
+pub(super) fn half_cells(state: RunState) -> (i32, i32, i32) {
+    let on_side = |cell: Cell, into: Direction| {
+        let (east, north) = into.step();
+        let half = |at: u16, step: i8| 2 * i32::from(at) + 1 - i32::from(step);
+        (half(cell.x, east), half(cell.y, north))
+    };
+    let ((x, y), heading_deg) = match state {
+        RunState::Straight { cell, heading } => (
+            (2 * i32::from(cell.x) + 1, 2 * i32::from(cell.y) + 1),
+            degrees(heading),
+        ),
+        RunState::Edge { cell, heading } => (on_side(cell, heading), degrees(heading)),
+        RunState::Diagonal { cell, into, out } => {
+            let half = if out == into.left() { 45 } else { -45 };
+            (on_side(cell, into), degrees(into) + half)
+        }
+    };
+    (x, y, heading_deg)
 }
 
 /// Returns the heading in degrees, counter-clockwise from east.
@@ -136,13 +190,7 @@ const fn name(run_move: RunMove) -> &'static str {
     match run_move {
         RunMove::Straight { .. } => "straight",
         RunMove::Diagonal { .. } => "diagonal",
-        RunMove::Turn { slalom, .. } => match slalom {
-            Slalom::F45 => "F45",
-            Slalom::F90 => "F90",
-            Slalom::F135 => "F135",
-            Slalom::F180 => "F180",
-            Slalom::Fv90 => "FV90",
-        },
+        RunMove::Turn { slalom, .. } => slalom.name(),
     }
 }
 
@@ -156,7 +204,8 @@ const fn side_name(side: Side) -> &'static str {
 /// Returns a move in words.
 pub(super) fn in_words(leg: &RunLeg) -> String {
     let how = match leg.step.run_move {
-        RunMove::Straight { cells } | RunMove::Diagonal { cells } => cells.to_string(),
+        RunMove::Straight { half_cells } => (f64::from(half_cells) / 2.0).to_string(),
+        RunMove::Diagonal { cells } => cells.to_string(),
         RunMove::Turn { side, .. } => side_name(side).to_owned(),
     };
     format!("{} {how}, {} ms", name(leg.step.run_move), leg.time_ms)
