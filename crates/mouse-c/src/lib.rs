@@ -218,7 +218,9 @@ pub unsafe extern "C" fn tolman_new(
         ptr::addr_of_mut!((*inner).goals).write(goals);
         let times: &'static SpeedRunTimes<TOLMAN_SIDE> = &*ptr::addr_of!((*inner).times);
         let goals = slice::from_raw_parts(ptr::addr_of!((*inner).goals).cast::<Cell>(), goal_count);
-        ptr::addr_of_mut!((*inner).mouse).cast::<Mouse<'static, TOLMAN_SIDE, Times>>().write(Mouse::with_memory(times, goals));
+        ptr::addr_of_mut!((*inner).mouse)
+            .cast::<Mouse<'static, TOLMAN_SIDE, Times>>()
+            .write(Mouse::with_memory(times, goals));
         ptr::addr_of_mut!((*inner).at).write(mouse);
     }
     tolman_status::TOLMAN_OK
@@ -308,7 +310,13 @@ pub unsafe extern "C" fn tolman_run(
             let (kind, amount) = told(step.run_move);
             let time_ms = times.of(step.run_move).unwrap_or(0) as u16;
             // SAFETY: `count` is within the caller's room.
-            unsafe { moves.add(count).write(tolman_move { kind: kind as u8, amount, time_ms }) };
+            unsafe {
+                moves.add(count).write(tolman_move {
+                    kind: kind as u8,
+                    amount,
+                    time_ms,
+                })
+            };
         }
         count += 1;
     });
@@ -336,7 +344,9 @@ pub unsafe extern "C" fn tolman_save(
     // SAFETY: the caller promises that much room, which may be uninitialized.
     unsafe { ptr::write_bytes(bytes, 0, saved::BYTES) };
     // SAFETY: it was just written.
-    saved::save(mouse.walls(), unsafe { slice::from_raw_parts_mut(bytes, saved::BYTES) });
+    saved::save(mouse.walls(), unsafe {
+        slice::from_raw_parts_mut(bytes, saved::BYTES)
+    });
     saved::BYTES
 }
 
@@ -356,7 +366,8 @@ pub unsafe extern "C" fn tolman_load(
     };
     // SAFETY: the caller promises as many bytes.
     let bytes = unsafe { slice::from_raw_parts(bytes, count) };
-    let restored = saved::is_whole(bytes).then(|| mouse.restore(|cell, side| saved::wall(bytes, cell, side)));
+    let restored =
+        saved::is_whole(bytes).then(|| mouse.restore(|cell, side| saved::wall(bytes, cell, side)));
     match restored {
         Some(Ok(())) => tolman_status::TOLMAN_OK,
         _ => tolman_status::TOLMAN_BAD_MAP,
@@ -367,7 +378,9 @@ pub unsafe extern "C" fn tolman_load(
 ///
 /// # Safety
 /// `mouse` must be null or point to memory for a mouse, which nothing else uses meanwhile.
-unsafe fn begun<'a>(mouse: *mut tolman_mouse) -> Option<&'a mut Mouse<'static, TOLMAN_SIDE, Times>> {
+unsafe fn begun<'a>(
+    mouse: *mut tolman_mouse,
+) -> Option<&'a mut Mouse<'static, TOLMAN_SIDE, Times>> {
     if mouse.is_null() {
         return None;
     }

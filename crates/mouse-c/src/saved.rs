@@ -41,8 +41,9 @@ pub(crate) fn save(walls: &impl Walls, bytes: &mut [u8]) {
 
 /// Returns whether these are the bytes of a map of this size.
 pub(crate) fn is_whole(bytes: &[u8]) -> bool {
-    let sum_is_right =
-        |(map, sum): (&[u8], &[u8; 4])| checksum(map).to_le_bytes() == *sum && map.starts_with(&HEAD);
+    let sum_is_right = |(map, sum): (&[u8], &[u8; 4])| {
+        checksum(map).to_le_bytes() == *sum && map.starts_with(&HEAD)
+    };
     bytes.len() == BYTES && bytes.split_last_chunk().is_some_and(sum_is_right)
 }
 

@@ -1,5 +1,9 @@
 //! A program in C makes the same decisions as Rust, on this computer and on an emulated chip.
-#![allow(clippy::unwrap_used, clippy::expect_used, reason = "a failed unwrap is a failed test")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    reason = "a failed unwrap is a failed test"
+)]
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -33,7 +37,9 @@ fn header(mazes: &[Maze]) -> String {
     for maze in mazes {
         text.push('{');
         for cell in maze.grid().cells() {
-            let open = Direction::ALL.into_iter().filter(|side| maze.is_open(cell, *side));
+            let open = Direction::ALL
+                .into_iter()
+                .filter(|side| maze.is_open(cell, *side));
             let bits: u8 = open.map(|side| 1 << side.index()).sum();
             write!(text, "{bits},").unwrap();
         }
@@ -99,30 +105,58 @@ fn expected(mazes: &[Maze]) -> String {
 fn library(target: Option<&str>) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("library");
     let mut cargo = Command::new(env!("CARGO"));
-    cargo.args(["build", "--release", "--quiet", "--locked", "--offline", "--lib"]);
+    cargo.args([
+        "build",
+        "--release",
+        "--quiet",
+        "--locked",
+        "--offline",
+        "--lib",
+    ]);
     cargo.arg("--target-dir").arg(&folder);
     if let Some(target) = target {
         cargo.args(["--target", target]);
     }
-    let built = cargo.current_dir(env!("CARGO_MANIFEST_DIR")).status().unwrap();
+    let built = cargo
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .status()
+        .unwrap();
     assert!(built.success());
-    folder.join(target.unwrap_or_default()).join("release/libtolman_mouse.a")
+    folder
+        .join(target.unwrap_or_default())
+        .join("release/libtolman_mouse.a")
 }
 
 /// Compiles `main.c` with a compiler and its options, and returns the program.
-fn program(compiler: &str, name: &str, options: &[&str], library: &Path, mazes: &[Maze]) -> PathBuf {
+fn program(
+    compiler: &str,
+    name: &str,
+    options: &[&str],
+    library: &Path,
+    mazes: &[Maze],
+) -> PathBuf {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
     fs::create_dir_all(&out).unwrap();
     fs::write(out.join("mazes.h"), header(mazes)).unwrap();
     let program = out.join("main");
     let mut compile = Command::new(compiler);
-    compile.args(["-O2", "-Wall", "-Wextra", "-Werror", "-I"]).arg(&out);
-    compile.arg("-I").arg(here.join("include")).arg(here.join("tests/main.c"));
+    compile
+        .args(["-O2", "-Wall", "-Wextra", "-Werror", "-I"])
+        .arg(&out);
+    compile
+        .arg("-I")
+        .arg(here.join("include"))
+        .arg(here.join("tests/main.c"));
     // Libraries follow what needs them.
     let (libraries, options): (Vec<&str>, Vec<&str>) =
         options.iter().partition(|option| option.starts_with("-l"));
-    compile.args(options).arg(library).args(libraries).arg("-o").arg(&program);
+    compile
+        .args(options)
+        .arg(library)
+        .args(libraries)
+        .arg("-o")
+        .arg(&program);
     let compiled = compile.current_dir(here.join("tests")).status().unwrap();
     assert!(compiled.success());
     program
@@ -151,7 +185,13 @@ fn c_decides_as_rust_does() {
     if !is_there("cc") {
         return;
     }
-    let program = program("cc", "host", &["-lm", "-lpthread", "-ldl"], &library(None), &mazes);
+    let program = program(
+        "cc",
+        "host",
+        &["-lm", "-lpthread", "-ldl"],
+        &library(None),
+        &mazes,
+    );
     assert_eq!(printed(&mut Command::new(program)), expected(&mazes));
 }
 
@@ -173,9 +213,22 @@ fn a_chip_decides_as_rust_does() {
         "-Wl,-Tdata=0x20000000",
         "chip.c",
     ];
-    let program = program("arm-none-eabi-gcc", "chip", &options, &library(Some(target)), &mazes);
+    let program = program(
+        "arm-none-eabi-gcc",
+        "chip",
+        &options,
+        &library(Some(target)),
+        &mazes,
+    );
     let mut qemu = Command::new("timeout");
-    qemu.args(["200", "qemu-system-arm", "-machine", "mps2-an386", "-nographic", "-semihosting"]);
+    qemu.args([
+        "200",
+        "qemu-system-arm",
+        "-machine",
+        "mps2-an386",
+        "-nographic",
+        "-semihosting",
+    ]);
     qemu.arg("-kernel").arg(program);
     assert_eq!(printed(&mut qemu).replace('\r', ""), expected(&mazes));
 }

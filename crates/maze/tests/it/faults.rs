@@ -71,7 +71,7 @@ fn drawings() {
     );
     check(
         "o---o---o\n| S x G |\no---o---o\n",
-        "line 2, column 5: found 'x': expected `|` or a blank between two cells",
+        "line 2, column 5: found 'x': expected `|`, a blank or `.` between two cells",
     );
     check(
         "o---o---o\n| S | ö |\no---o---o\n",
@@ -79,8 +79,8 @@ fn drawings() {
     );
     check(
         "o---o---o\n| S   G |\no-- o---o\n",
-        "line 3, column 4: found ' ': expected `---` or three blanks between two posts, since a cell \
-         is three characters wide, as in `+---+---+`",
+        "line 3, column 4: found ' ': expected `---`, three blanks or ` . ` between two posts, \
+         all as far apart as the first two, as in `+---+---+`",
     );
     check(
         "o---o---o\n| S   S |\no---o---o\n",
@@ -140,8 +140,8 @@ fn drawings() {
     );
     check(
         "o--o--o\n|S  G |\no--o--o\n",
-        "line 1, column 4: found 'o': expected `---` or three blanks between two posts, since a cell \
-         is three characters wide, as in `+---+---+`",
+        "line 1, column 4: found 'o': expected `---`, three blanks or ` . ` between two posts, \
+         all as far apart as the first two, as in `+---+---+`",
     );
     check(
         &format!("{}o\n", "o---".repeat(1025)),
