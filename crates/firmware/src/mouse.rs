@@ -36,7 +36,7 @@ const START: (Cell, Direction) = (Cell::new(0, 0), Direction::North);
 /// # Ok::<(), tolman_maps::wall_map::TooLarge>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Mouse<'a, const N: usize = MAZE, C: CellTimes = [u16; 16]> {
+pub struct Mouse<'a, const N: usize = MAZE, C: CellTimes = [u16; 12]> {
     walls: WallMap<N, LOG>,
     /// Whether walls may be wrong: this is the first map, or the mouse was lost since it began it.
     is_doubtful: bool,

@@ -211,6 +211,8 @@ fn a_chip_decides_as_rust_does() {
         "-Wl,--section-start=.vectors=0x0",
         "-Wl,-Ttext-segment=0x1000",
         "-Wl,-Tdata=0x20000000",
+        "-Wl,--gc-sections",
+        "-Wl,--undefined=VECTORS",
         "chip.c",
     ];
     let program = program(

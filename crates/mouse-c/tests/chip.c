@@ -10,7 +10,7 @@ static void reset(void) {
     _start();
 }
 
-__attribute__((section(".vectors"), used)) static void (*const VECTORS[16])(void) = {
+__attribute__((section(".vectors"), used)) void (*const VECTORS[16])(void) = {
     (void (*)(void))0x20040000,
     reset,
 };
