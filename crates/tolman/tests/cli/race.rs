@@ -159,7 +159,7 @@ fn a_first_mouse_turns_within_cells() {
         tolman_in(&folder, &[&race[..], more].concat()).done()
     };
     let told = race(&["--moves", "cells"]);
-    assert!(told.contains("proven: FRLLRR;"), "{told}");
+    assert!(told.contains("proven: FRLLRRF;"), "{told}");
     let told: Value = serde_json::from_str(&race(&["--json"])).unwrap();
     let moves = told["moves"].as_array().unwrap();
     let fs90 = moves.iter().filter(|one| one["move"] == "FS90");
@@ -206,9 +206,9 @@ fn a_builders_route_is_timed_and_checked() {
             &["race", "stairs.txt", "--no-diagonals", "--route", route],
         )
     };
-    let by_cells = route("FRLLRR").done();
+    let by_cells = route("FRLLRRF").done();
     assert!(by_cells.contains("0.000 s less"), "{by_cells}");
-    assert_eq!(route("sRLLRRs").done(), by_cells);
+    assert_eq!(route("sRLLRRsss").done(), by_cells);
     route("FRLL").refused(1, &["not a goal"]);
     route("FF").refused(1, &["cell 2", "wall"]);
     route("SS").refused(1, &["cannot be driven", "not known to be open"]);
