@@ -9,8 +9,9 @@
 //!   logarithm of its product, with 3 degrees of freedom, by first-order propagation of its edges'
 //!   covariances. The *bound* is k², k = 5. A cycle is *tight* if the region of k standard
 //!   deviations fills at most 3 ‰ of all poses within 5 m.
-//! - **Run**: closures that do not contradict each other, each linked to the next by at most 3
-//!   poses at both ends. They err together, so a run is one witness, however long.
+//! - **Run**: closures of one drive along a stretch driven before. They do not contradict each
+//!   other, and about the same way was driven between one and the next at both ends. They err
+//!   together, so a run is one witness, however long.
 //! - **Witness**: a tight cycle within its bound. Witnesses of one closure share no run with it or
 //!   each other. Odometry alone is one.
 //!

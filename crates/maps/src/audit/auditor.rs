@@ -155,7 +155,14 @@ impl Judge<'_, '_> {
                 witnesses: self.witnesses(link, &way)?,
             });
         }
-        if gap.refutes(config) {
+        let by_odometry = way.closures().next().is_none();
+        let doubt = match by_odometry {
+            true => {
+                (self.belief.chain).doubt(self.link(link).first, self.link(link).second, config)
+            }
+            false => 1.0,
+        };
+        if gap.refutes_over(doubt, config) {
             return self.against(link, &way);
         }
         Some(ClosureVerdict::Undecided(self.undecided(link, &gap)))

@@ -14,6 +14,8 @@ pub(super) struct Chain {
     pub(super) reckoned: Vec<Motion>,
     /// Summed covariance of all steps up to each pose, seen from the first pose of its piece.
     summed: Vec<Spread>,
+    /// Way driven up to each pose, m.
+    pub(super) driven: Vec<f64>,
     /// The summed cost of all steps up to each pose.
     cost: Vec<f64>,
     /// Unbroken piece of the odometry to which each pose belongs.
@@ -30,6 +32,7 @@ impl Chain {
         let mut chain = Self {
             reckoned: Vec::with_capacity(step.len()),
             summed: Vec::with_capacity(step.len()),
+            driven: Vec::with_capacity(step.len()),
             cost: Vec::with_capacity(step.len()),
             piece: Vec::with_capacity(step.len()),
             step,
@@ -42,10 +45,12 @@ impl Chain {
                     let (measured, spread) = forward(edge, config);
                     pose = pose.compose(measured);
                     chain.go_on(pose, &spread, config);
+                    chain.drive(measured.position.coords.norm());
                 }
                 _ => {
                     pose = Pose::IDENTITY;
                     chain.begin();
+                    chain.drive(0.0);
                 }
             }
         }
@@ -76,6 +81,17 @@ impl Chain {
         self.cost.push(cost);
         self.piece.push(piece);
         self.reckoned.push(motion);
+    }
+
+    fn drive(&mut self, way: f64) {
+        self.driven.push(self.driven.last().unwrap_or(&0.0) + way);
+    }
+
+    /// Returns the factor on the bound of the span between two poses. The errors of wheels are not
+    /// independent of each other over long ways.
+    pub(super) fn doubt(&self, a: u32, b: u32, config: &AuditConfig) -> f64 {
+        let way = (self.driven[a as usize] - self.driven[b as usize]).abs();
+        1.0 + way / config.white_way
     }
 
     /// Returns whether odometry leads from one pose to the other.

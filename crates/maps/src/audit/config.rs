@@ -16,8 +16,13 @@ pub struct AuditConfig {
     pub tight_share: f64,
     /// Radius of the region of nearby poses, m (default 5), at any heading.
     pub near: f64,
-    /// Maximum distance of two closures of one run, at both ends, poses (default 3).
+    /// Maximum distance of two neighbouring closures of one run, at both ends, poses (default 3).
     pub run_gap: u32,
+    /// Maximum way between two neighbouring closures of one run, at both ends, m (default 20).
+    pub run_way: f64,
+    /// Way over which the odometry's errors count as independent of each other, m (default 1000).
+    /// Over longer ways the bound by odometry alone grows in proportion.
+    pub white_way: f64,
     /// Maximum distance, at both ends, of two closures that are compared, poses (default 60).
     pub pair_gap: u32,
     /// Weight of a radian in the search for the surest way, m (default 3).
@@ -37,6 +42,8 @@ impl AuditConfig {
             tight_share: 3e-3,
             near: 5.0,
             run_gap: 3,
+            run_way: 20.0,
+            white_way: 1000.0,
             pair_gap: 60,
             lever: 3.0,
             most_witnesses: 5,

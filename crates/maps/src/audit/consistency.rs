@@ -27,7 +27,9 @@ pub(super) enum ByOdometry {
 impl ByOdometry {
     pub(super) fn of(link: &Link, chain: &Chain, config: &AuditConfig) -> Self {
         match link.gap_to_odometry(chain) {
-            Some(gap) if gap.refutes(config) => Self::Refutes,
+            Some(gap) if gap.refutes_over(chain.doubt(link.first, link.second, config), config) => {
+                Self::Refutes
+            }
             Some(gap) if gap.supports(config) => Self::Supports,
             _ => Self::Silent,
         }

@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 
 /// A partition of 0 … n − 1 that grows coarser (union–find with halved paths; R. Tarjan, 1975).
+#[derive(Clone)]
 pub(super) struct Groups(Vec<usize>);
 
 impl Groups {

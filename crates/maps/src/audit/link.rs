@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use super::AuditConfig;
 use super::chain::{Chain, cost_of, forward};
 use super::motion::{Motion, Spread};
-use super::run::runs;
+use super::run::{Ends, runs};
 use crate::pose_graph::{PoseEdgeKind, PoseGraph};
 
 /// A closure, measured from its lower pose to its higher.
@@ -47,7 +47,12 @@ impl Gap {
 
     /// Returns whether the gap is beyond its bound, and by more than rounding.
     pub(super) fn refutes(&self, config: &AuditConfig) -> bool {
-        self.chi2 > config.most_chi2() * (1.0 + 1e-6)
+        self.refutes_over(1.0, config)
+    }
+
+    /// Returns whether the gap is beyond `doubt` times its bound, and by more than rounding.
+    pub(super) fn refutes_over(&self, doubt: f64, config: &AuditConfig) -> bool {
+        self.chi2 > doubt * config.most_chi2() * (1.0 + 1e-6)
     }
 
     /// Returns whether the gap's region of uncertainty excludes most nearby poses.
@@ -83,12 +88,16 @@ pub(super) fn links(graph: &PoseGraph, chain: &Chain, config: &AuditConfig) -> V
         }
     }
     links.sort_by_key(|link| (link.first, link.second, link.edge));
-    let ends: Vec<(u32, u32)> = links.iter().map(|link| (link.first, link.second)).collect();
+    let ends = links.iter().map(|link| Ends {
+        poses: [link.first, link.second],
+        driven: [link.first, link.second].map(|pose| chain.driven[pose as usize]),
+    });
+    let ends: Vec<Ends> = ends.collect();
     let agree = |a: usize, b: usize| {
         let gap = links[a].gap_to(&links[b], chain);
         gap.is_none_or(|gap| !gap.refutes(config))
     };
-    let runs = runs(&ends, config.run_gap, agree);
+    let runs = runs(&ends, config.run_gap, config.run_way, agree);
     for (link, run) in links.iter_mut().zip(runs) {
         link.run = run;
     }

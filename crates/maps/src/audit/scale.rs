@@ -14,8 +14,11 @@ const APART: u32 = 10;
 const MEDIAN: f64 = 2.366;
 const TAIL: f64 = 11.345;
 
-/// Ratio of the tail to a Gaussian's above which the scale is not shrunk.
+/// Ratio of the tail to a Gaussian's above which the scale bears it.
 const HEAVY: f64 = 2.0;
+
+/// Multiple of the median above which a cycle is that of a false closure, not of the tail.
+const FALSE: f64 = 300.0;
 
 /// Minimum number of cycles for a scale.
 const FEWEST: usize = 20;
@@ -25,7 +28,8 @@ const FEWEST: usize = 20;
 pub struct SigmaScale {
     /// Scale at which the median of χ² is that of a Gaussian.
     pub estimate: f64,
-    /// The 99th percentile of χ² over its median; a Gaussian's is 4.8.
+    /// The 99th percentile of χ² over its median, without cycles 300 times the median: those are of
+    /// false closures. A Gaussian's is 4.8.
     pub tail: f64,
     /// Number of cycles from which the scale is computed.
     pub cycles: usize,
@@ -64,27 +68,33 @@ impl SigmaScale {
 
     fn of(sorted: &[f64]) -> Option<Self> {
         let cycles = sorted.len();
-        let at = |share: f64| sorted[((cycles - 1) as f64 * share) as usize];
-        (cycles >= FEWEST && at(0.5) > 0.0).then(|| Self {
-            estimate: libm::sqrt(at(0.5) / MEDIAN),
-            tail: at(0.99) / at(0.5),
+        if cycles < FEWEST {
+            return None;
+        }
+        let at = |share: f64, of: usize| sorted[((of - 1) as f64 * share) as usize];
+        let median = at(0.5, cycles);
+        let right = sorted
+            .partition_point(|chi2| *chi2 <= FALSE * median)
+            .max(1);
+        (median > 0.0).then(|| Self {
+            estimate: libm::sqrt(median / MEDIAN),
+            tail: at(0.99, right) / median,
             cycles,
         })
     }
 
-    /// Returns whether the tail is so heavy that smaller standard deviations would refute right
-    /// closures.
+    /// Returns whether the tail is so heavy that the estimate alone would refute right closures.
     #[must_use]
     pub fn is_heavy(&self) -> bool {
         self.tail > HEAVY * TAIL / MEDIAN
     }
 
-    /// Returns the scale to audit with: the estimate, but never less than 1 where the tail is
-    /// heavy.
+    /// Returns the scale to audit with: the estimate, raised where the tail is heavy so that this
+    /// lies as far out as a Gaussian's.
     #[must_use]
     pub fn scale(&self) -> f64 {
         match self.is_heavy() {
-            true => self.estimate.max(1.0),
+            true => self.estimate * libm::sqrt(self.tail * MEDIAN / TAIL),
             false => self.estimate,
         }
     }

@@ -167,6 +167,37 @@ impl ScanMatching {
         Ok(())
     }
 
+    /// Replaces all closures by these, as they were audited, and optimizes the map.
+    ///
+    /// # Errors
+    /// If one of them does not fit the graph.
+    pub fn close_by(
+        &mut self,
+        closures: impl IntoIterator<Item = PoseEdge>,
+    ) -> Result<(), ScanMatchingError> {
+        let mut graph = self.without_closures()?;
+        for edge in closures {
+            graph.add_edge(edge)?;
+        }
+        let config = self.config.closures.clone();
+        graph.optimize(&optimizer(&config.unwrap_or_else(ClosureConfig::indoor)));
+        self.graph = graph;
+        Ok(())
+    }
+
+    /// Returns the graph with its odometry alone.
+    fn without_closures(&self) -> Result<PoseGraph, ScanMatchingError> {
+        let mut graph = PoseGraph::new();
+        for pose in self.graph.poses() {
+            graph.add_pose(*pose);
+        }
+        let edges = self.graph.edges().iter();
+        for edge in edges.filter(|edge| edge.kind == PoseEdgeKind::Odometry) {
+            graph.add_edge(*edge)?;
+        }
+        Ok(graph)
+    }
+
     /// Returns the pairs of keyframes that closures join.
     fn closed(&self) -> Vec<[u32; 2]> {
         let closures = self.graph.closures();
@@ -178,14 +209,7 @@ impl ScanMatching {
             window: config.window,
             turn: config.window_turn,
         };
-        let mut graph = PoseGraph::new();
-        for pose in self.graph.poses() {
-            graph.add_pose(*pose);
-        }
-        let edges = self.graph.edges().iter();
-        for edge in edges.filter(|edge| edge.kind == PoseEdgeKind::Odometry) {
-            graph.add_edge(*edge)?;
-        }
+        let mut graph = self.without_closures()?;
         let mut searched_at = 0.0;
         for last in 1..self.keyframes.len() {
             let way = self.keyframes[last].way;

@@ -121,6 +121,22 @@ impl ScanMatchingConfig {
         }
     }
 
+    /// Returns the values for a robot whose motion is known from its scans alone: each is matched,
+    /// in a wider window, and no closures are looked for.
+    #[must_use]
+    pub fn without_odometry() -> Self {
+        Self {
+            step: 0.0,
+            turn: 0.0,
+            window: 1.0,
+            window_turn: 45_f64.to_radians(),
+            odometry_sd: 0.5,
+            odometry_turn_sd: 0.5,
+            closures: None,
+            ..Self::indoor()
+        }
+    }
+
     /// Returns the same values, but with closures only at places that the caller names.
     #[must_use]
     pub fn places() -> Self {

@@ -125,6 +125,12 @@ impl ScanMatching {
         self.scans.iter().map(|scan| self.pose_of(scan)).collect()
     }
 
+    /// Returns the pose of the last scan, in the frame of the first; `None` before the first.
+    #[must_use]
+    pub fn pose(&self) -> Option<Pose> {
+        self.scans.last().map(|scan| self.pose_of(scan))
+    }
+
     /// Returns the numbers of the scans that are keyframes, in order.
     #[must_use]
     pub fn keyframes(&self) -> Vec<usize> {
