@@ -7,6 +7,8 @@
 
 mod aligned;
 mod relations;
+mod spatial;
 
 pub use aligned::AlignedScore;
 pub use relations::RelationScore;
+pub use spatial::{ErrorSummary, PosePair, SpatialScore, TrajectoryAlignment};

@@ -58,7 +58,7 @@ impl<'a> Fields<'a> {
         for index in 0..count {
             let missing = || (LogTrouble::Cut, format!("it has {index} of {count} ranges"));
             let range = self.words.next().ok_or_else(missing)?.parse::<f64>();
-            ranges.push(range.ok().filter(|range| *range >= 0.0));
+            ranges.push(range.ok().filter(|range| *range > 0.0));
         }
         Ok(ranges)
     }
@@ -79,5 +79,9 @@ const FARTHEST: f64 = 1e7;
 
 fn no_number(name: &str, word: &str) -> Wrong {
     let word: String = word.chars().take(24).collect();
-    (LogTrouble::NoNumber, format!("{name} is `{word}`"))
+    let comma = match word.contains(',') && word.replacen(',', ".", 1).parse::<f64>().is_ok() {
+        true => ", with a decimal comma; write a point",
+        false => "",
+    };
+    (LogTrouble::NoNumber, format!("{name} is `{word}`{comma}"))
 }

@@ -1,6 +1,7 @@
-//! Pose graphs in the plane as g2o, GTSAM, Cartographer's and slam_toolbox's tools write them. The
-//! lines are `VERTEX_SE2 id x y θ`, `EDGE_SE2 from to x y θ …` and `FIX id`. An edge ends with the
-//! upper triangle of its information matrix, row by row.
+//! Pose graphs in the plane as g2o, GTSAM, TORO and RTAB-Map write them. The lines are `VERTEX_SE2 id
+//! x y θ`, `EDGE_SE2 from to x y θ …` and `FIX id`. An edge ends with the upper triangle of its
+//! information matrix, row by row. TORO's `VERTEX2` and `EDGE2` are the same with the matrix in
+//! another order. `VERTEX_SE3:QUAT` and `EDGE_SE3:QUAT` are read if they lie in the plane.
 //!
 //! Source: R. Kümmerle, G. Grisetti, H. Strasdat, K. Konolige, W. Burgard: g2o: A General Framework
 //! for Graph Optimization, 2011, and
@@ -8,6 +9,7 @@
 
 mod fault;
 mod line;
+mod space;
 mod written;
 
 use std::io::Read;
@@ -309,7 +311,19 @@ EDGE_SE2 2 0 -2.5 0 0 10 0 0 10 0 40
                 "pose 1 is given a second time, first in line 3",
             ),
             ("FIX 12", "needs pose 12"),
-            ("EDGE_SE3:QUAT 0 1 0 0 0", "`EDGE_SE3:QUAT` is not read"),
+            (
+                "EDGE_SE3:QUAT 0 1 0 0 0",
+                "EDGE_SE3:QUAT has 5 numbers; expected 30",
+            ),
+            (
+                "VERTEX_SE3:QUAT 7 0 0 1 0.7 0 0 0.7",
+                "does not lie in the plane: it leans",
+            ),
+            ("EDGE_SE2 0 2 1 0 0", "the information matrix is missing"),
+            (
+                "EDGE_SE2 0 2 1,5 0 0 1 0 0 1 0 1",
+                "`1,5` is not a finite number; write decimal points",
+            ),
             ("ODOM 1 2 3", "`ODOM` is not read"),
         ] {
             let graph = G2o::parse(&format!("{GRAPH}{line}\n")).unwrap();
@@ -320,6 +334,25 @@ EDGE_SE2 2 0 -2.5 0 0 10 0 0 10 0 40
                 "{fault}"
             );
         }
+    }
+
+    #[test]
+    fn graphs_of_toro_and_planar_ones_in_space_are_the_same_graph() {
+        let plane = G2o::parse(GRAPH).unwrap();
+        let toro = GRAPH
+            .replace("VERTEX_SE2", "VERTEX2")
+            .replace(
+                "EDGE_SE2 0 1 1 0 0.5 100 1 2 200 3 400",
+                "EDGE2 0 1 1 0 0.5 100 1 200 400 2 3",
+            )
+            .replace("EDGE_SE2", "EDGE2");
+        assert_eq!(G2o::parse(&toro).unwrap(), plane);
+        let space = "VERTEX_SE3:QUAT 0 0 0 9 0 0 0 1\nVERTEX_SE3:QUAT 1 1 2 9 0 0 1 0\n\
+            EDGE_SE3:QUAT 0 1 1 2 0 0 0 1 0 10 1 0 0 0 2 20 0 0 0 3 1 0 0 0 1 0 0 1 0 40\n";
+        let edge = G2o::parse(space).unwrap().edges[0];
+        let information = [10.0, 1.0, 2.0, 1.0, 20.0, 3.0, 2.0, 3.0, 40.0];
+        assert_eq!(edge.information, Matrix3::from_row_slice(&information));
+        assert!((edge.measured.heading.radians().abs() - core::f64::consts::PI).abs() < 1e-9);
     }
 
     #[test]

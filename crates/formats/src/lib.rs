@@ -4,8 +4,8 @@
 //! grid's scale and place, and a PGM picture beside it. [`RosMapHeader`] and [`GreyMap`] are the
 //! two files by themselves. [`G2o`] is a pose graph in the plane, read and written.
 //!
-//! [`LogReader`] reads logs of robots; a [`LogReport`] lists the parts of a log that cannot be
-//! used. [`ReadTrajectory`] and [`tum`] read and write trajectories, and [`ReadRelations`] reads
+//! [`WholeLog`] reads logs of robots and bags of ROS, and [`LogReader`] a log line by line; a
+//! [`LogReport`] lists the parts of a log that cannot be used. [`ReadTrajectory`] and [`tum`] read and write trajectories, and [`ReadRelations`] reads
 //! relative poses. [`UtiasRobot`], [`TucDrive`] and [`SonarTable`] are published data sets.
 //! [`dot`], [`graphml`], [`node_link_json`] and [`route_geojson`] write maps of places.
 //!
@@ -41,35 +41,32 @@ extern crate alloc;
 pub use tolman_geom as geom;
 pub use tolman_robot as robot;
 
+mod bag;
 mod carmen;
 mod fields;
 mod g2o;
 mod graph;
 pub mod input;
 mod log;
-mod quaternion;
 mod ros_map;
-#[cfg(feature = "mcap")]
-mod rosbag;
 mod sonar_table;
 mod trajectory;
 mod tuc;
+mod unpack;
 mod utias;
 mod wean;
 
 pub use graph::{dot, graphml, node_link_json, route_geojson};
 pub use log::{
-    KindCount, LogEntry, LogError, LogOdometry, LogReader, LogReport, LogScan, LogTrouble,
-    LogVelocity, TroubleCount, is_mcap,
+    KindCount, LogEntry, LogError, LogOdometry, LogOptions, LogReader, LogReport, LogScan,
+    LogTimes, LogTopic, LogTrouble, LogVelocity, TroubleCount, WholeLog,
 };
 
 pub use g2o::{G2o, G2oEdge, G2oError, G2oFault, G2oFaultKind, G2oPose};
 pub use ros_map::{
     GreyMap, GreyMapError, MapCell, RosMap, RosMapError, RosMapHeader, RosMapHeaderError,
 };
-#[cfg(feature = "mcap")]
-pub use rosbag::RosBag;
 pub use sonar_table::SonarTable;
-pub use trajectory::{ReadRelations, ReadTrajectory, tum};
+pub use trajectory::{ReadRelations, ReadTrajectory, SpacePose, TrajectoryError, tum};
 pub use tuc::{PlaceMatch, TucDrive};
 pub use utias::{BarcodeSighting, UtiasRobot};

@@ -8,7 +8,7 @@ mod writer;
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
-use tolman_geom::Point;
+use tolman_geom::{Heading, Point, Vector};
 
 use crate::input::{self, SourceError};
 
@@ -69,7 +69,7 @@ pub enum RosMapError {
         /// Fault of the file, with its place.
         source: RosMapHeaderError,
     },
-    /// The picture is not a grey PGM.
+    /// The picture is neither a grey PGM nor a PNG.
     #[error("{}", path.display())]
     Picture {
         /// Path of the file.
@@ -111,21 +111,71 @@ impl RosMap {
     }
 
     /// Returns the occupancy grid of a `header` and its `picture`, whose first row is the
-    /// northernmost. O(pixels).
+    /// northernmost. A turned picture is drawn again, turned, each cell as the picture has it at the
+    /// cell's middle. O(pixels).
     #[must_use]
     pub fn of(header: &RosMapHeader, picture: &GreyMap) -> Self {
         let most = f64::from(picture.most);
         let rows = picture.values.chunks(picture.width.max(1)).rev();
         let values = rows.flatten().map(|value| f64::from(*value) / most);
-        Self {
+        let map = Self {
             width: picture.width,
             height: picture.height,
             resolution: header.resolution,
             origin: header.origin,
             cells: values.map(|light| header.cell(light)).collect(),
+        };
+        match header.yaw.abs() > 1e-9 {
+            true => map.turned(Heading::from_radians(header.yaw)),
+            false => map,
+        }
+    }
+
+    /// Returns the map turned about its south-west corner.
+    fn turned(&self, by: Heading) -> Self {
+        let size = Vector::new(self.width as f64, self.height as f64);
+        let corners = [(0.0, 0.0), (size.x, 0.0), (0.0, size.y), (size.x, size.y)];
+        let corners = corners.map(|(x, y)| by.rotate(Vector::new(x, y)));
+        let low = corners
+            .iter()
+            .fold(Vector::zeros(), |low, corner| low.inf(corner));
+        let high = corners
+            .iter()
+            .fold(Vector::zeros(), |high, corner| high.sup(corner));
+        let low = low.map(|side| libm::floor(side + ROUNDING));
+        // The diagonal of a picture is not much longer than its sides.
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "whole and positive"
+        )]
+        let [width, height] =
+            [high.x - low.x, high.y - low.y].map(|side| libm::ceil(side - ROUNDING) as usize);
+        let back = Heading::from_radians(-by.radians());
+        let cell = |index: usize| {
+            let middle = Vector::new((index % width) as f64 + 0.5, (index / width) as f64 + 0.5);
+            let at = back.rotate(low + middle).map(libm::floor);
+            let inside = (0.0..size.x).contains(&at.x) && (0.0..size.y).contains(&at.y);
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "inside"
+            )]
+            let found = inside.then(|| self.cells.get(at.y as usize * self.width + at.x as usize));
+            found.flatten().copied().unwrap_or(MapCell::Unknown)
+        };
+        Self {
+            width,
+            height,
+            resolution: self.resolution,
+            origin: self.origin + low * self.resolution,
+            cells: (0..width * height).map(cell).collect(),
         }
     }
 }
+
+/// Part of a cell that is neglected where a turned map ends.
+const ROUNDING: f64 = 1e-6;
 
 fn load(path: &Path) -> Result<Vec<u8>, RosMapError> {
     input::bytes(path).map_err(|source| RosMapError::File {
@@ -148,6 +198,19 @@ mod tests {
         use MapCell::{Free, Occupied, Unknown};
         assert_eq!(map.cells, [Unknown, Free, Free, Occupied]);
         assert_eq!(map.origin, Point::new(-1.0, 2.0));
+    }
+
+    #[test]
+    fn a_turned_picture_is_turned_about_its_corner() {
+        let yaml = "image: a.pgm\nresolution: 0.5\norigin: [1, 2, 1.5707963267948966]\nnegate: 0\n\
+                    occupied_thresh: 0.65\nfree_thresh: 0.196\n";
+        let header = RosMapHeader::parse(yaml).unwrap();
+        let picture = GreyMap::parse(b"P2\n3 1\n255\n254 0 205\n").unwrap();
+        let map = RosMap::of(&header, &picture);
+        use MapCell::{Free, Occupied, Unknown};
+        assert_eq!((map.width, map.height), (1, 3));
+        assert_eq!(map.cells, [Free, Occupied, Unknown]);
+        assert_eq!(map.origin, Point::new(0.5, 2.0));
     }
 
     #[test]

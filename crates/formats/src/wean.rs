@@ -10,7 +10,7 @@
 use tolman_geom::{Point, Pose};
 use tolman_robot::Scan;
 
-use crate::carmen::{Parameters, mount};
+use crate::carmen::Parameters;
 use crate::fields::{Fields, Wrong};
 use crate::log::{LogOdometry, LogScan, ReadScan};
 
@@ -40,7 +40,7 @@ pub(crate) fn laser(
         time,
         odometry,
         noted,
-        robot_from_laser: mount(odometry, noted),
+        robot_from_laser: Pose::IDENTITY,
         scan: Scan {
             ring: parameters.ring(BEAMS),
             ranges: Vec::new(),

@@ -72,8 +72,7 @@ pub const TARGETS: &[FuzzTarget] = targets![
     tuc,
     sonar_table,
     g2o,
-    #[cfg(feature = "mcap")]
-    mcap,
+    whole_log,
     trace,
     trace_of_epuck,
     map_of_mslst,

@@ -12,8 +12,8 @@ use tolman_arena::gngslam::DataSet;
 use tolman_arena::mms::{Exchange, Simulator};
 use tolman_experiment::compare;
 use tolman_formats::{
-    G2o, GreyMap, LogEntry, LogReader, ReadRelations, ReadTrajectory, RosMap, RosMapHeader,
-    SonarTable, TucDrive, UtiasRobot,
+    G2o, GreyMap, LogEntry, LogOptions, LogReader, ReadRelations, ReadTrajectory, RosMap,
+    RosMapHeader, SonarTable, TucDrive, UtiasRobot, WholeLog,
 };
 use tolman_maze::{Format, parse_as, read_as, write};
 use tolman_replay::Trace;
@@ -144,7 +144,7 @@ pub(super) fn carmen(bytes: &[u8]) -> Answer {
     let mut count = 0;
     for entry in reader.by_ref() {
         count += 1;
-        if let LogEntry::Scan(scan) = entry {
+        if let LogEntry::Scan(scan) | LogEntry::BareScan(scan) = entry {
             assert_eq!(scan.scan.ranges.len(), scan.scan.ring.beams as usize);
             let mut ranges = scan.scan.ranges.iter();
             assert!(ranges.all(|range| *range >= 0.0 && range.is_finite()));
@@ -167,14 +167,13 @@ pub(super) fn relations(bytes: &[u8]) -> Answer {
 
 /// A trajectory is in order of time and of finite numbers.
 pub(super) fn tum(bytes: &[u8]) -> Answer {
-    let read = ReadTrajectory::from_lines(bytes);
-    let poses = read.trajectory.poses();
-    assert!(poses.is_sorted_by(|a, b| a.time <= b.time));
-    assert!(poses.iter().all(|timed| timed.pose.is_finite()));
-    match poses.is_empty() {
-        true => Answer::Refused,
-        false => Answer::Taken,
+    let read = ReadTrajectory::parse(&String::from_utf8_lossy(bytes));
+    if let Ok(read) = &read {
+        assert!(read.poses.is_sorted_by(|a, b| a.time < b.time));
+        let planar = read.planar();
+        assert_eq!(planar.poses().len(), read.poses.len());
     }
+    Answer::of(&read)
 }
 
 /// Returns a file of this process with these bytes, in a folder that is there.
@@ -225,11 +224,11 @@ pub(super) fn g2o(bytes: &[u8]) -> Answer {
     Answer::of(&graph)
 }
 
-#[cfg(feature = "mcap")]
-pub(super) fn mcap(bytes: &[u8]) -> Answer {
-    match tolman_formats::RosBag::of(bytes).entries.is_empty() {
-        true => Answer::Refused,
-        false => Answer::Taken,
+/// A bag of any kind, or a log of lines, packed or not.
+pub(super) fn whole_log(bytes: &[u8]) -> Answer {
+    match WholeLog::of_bytes(bytes.to_vec(), &LogOptions::whole()) {
+        Ok(log) if !log.scans.is_empty() => Answer::Taken,
+        _ => Answer::Refused,
     }
 }
 

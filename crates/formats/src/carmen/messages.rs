@@ -52,13 +52,7 @@ fn beams(ranges: &[Option<f64>]) -> u32 {
 const OLDER_FIELDS: usize = 6 + 4 + 3;
 
 pub(crate) fn robot_laser(line: u64, fields: &mut Fields<'_>) -> Result<ReadScan, Wrong> {
-    fields.pass(1, "the kind of laser")?;
-    let first_bearing = fields.number("the first bearing")?;
-    fields.pass(1, "the field of view")?;
-    let spacing = fields.number("the spacing")?;
-    let max_range = fields.number("the greatest range")?;
-    fields.pass(2, "the accuracy")?;
-    let ranges = ranges(fields)?;
+    let (ring, ranges) = head(fields)?;
     let is_newer = fields.left() != OLDER_FIELDS;
     if is_newer {
         let remissions = fields.count("the number of remissions")?;
@@ -68,6 +62,53 @@ pub(crate) fn robot_laser(line: u64, fields: &mut Fields<'_>) -> Result<ReadScan
     let odometry = fields.pose("the robot's pose")?;
     fields.pass(if is_newer { 5 } else { 4 }, "a velocity")?;
     let time = fields.number("the time")?;
+    let scan = LogScan {
+        line,
+        time,
+        odometry,
+        noted,
+        robot_from_laser: Pose::IDENTITY,
+        scan: Scan {
+            ring,
+            ranges: Vec::new(),
+        },
+    };
+    Ok(ReadScan::of(scan, &ranges))
+}
+
+/// Readings of a laser alone. Its pose on the robot is that of the parameters.
+pub(crate) fn raw_laser(
+    line: u64,
+    fields: &mut Fields<'_>,
+    parameters: &Parameters,
+) -> Result<ReadScan, Wrong> {
+    let (ring, ranges) = head(fields)?;
+    let remissions = fields.count("the number of remissions")?;
+    fields.pass(remissions.min(MOST_BEAMS), "a remission")?;
+    let time = fields.number("the time")?;
+    let scan = LogScan {
+        line,
+        time,
+        odometry: Pose::IDENTITY,
+        noted: Pose::IDENTITY,
+        robot_from_laser: parameters.mount(),
+        scan: Scan {
+            ring,
+            ranges: Vec::new(),
+        },
+    };
+    Ok(ReadScan::of(scan, &ranges))
+}
+
+/// Reads the geometry of the beams, and their ranges.
+fn head(fields: &mut Fields<'_>) -> Result<(Ring, Vec<Option<f64>>), Wrong> {
+    fields.pass(1, "the kind of laser")?;
+    let first_bearing = fields.number("the first bearing")?;
+    fields.pass(1, "the field of view")?;
+    let spacing = fields.number("the spacing")?;
+    let max_range = fields.number("the greatest range")?;
+    fields.pass(2, "the accuracy")?;
+    let ranges = ranges(fields)?;
     let ring = Ring {
         beams: beams(&ranges),
         first_bearing,
@@ -77,28 +118,7 @@ pub(crate) fn robot_laser(line: u64, fields: &mut Fields<'_>) -> Result<ReadScan
             false => NOTHING_HIT,
         },
     };
-    let scan = LogScan {
-        line,
-        time,
-        odometry,
-        noted,
-        robot_from_laser: mount(odometry, noted),
-        scan: Scan {
-            ring,
-            ranges: Vec::new(),
-        },
-    };
-    Ok(ReadScan::of(scan, &ranges))
-}
-
-/// Maximum distance of a laser from the robot's middle, m. A pose that is farther away has been
-/// corrected.
-const FARTHEST_MOUNT: f64 = 0.5;
-
-pub(crate) fn mount(robot: Pose, laser: Pose) -> Pose {
-    let mount = robot.between(laser);
-    let is_mount = mount.position.coords.norm() < FARTHEST_MOUNT;
-    if is_mount { mount } else { Pose::IDENTITY }
+    Ok((ring, ranges))
 }
 
 fn ranges(fields: &mut Fields<'_>) -> Result<Vec<Option<f64>>, Wrong> {

@@ -15,6 +15,8 @@ pub(crate) struct Parameters {
     offset: Option<f64>,
     /// Angle between two beams, degrees.
     spacing_deg: Option<f64>,
+    /// Range from which a reading stands for "nothing seen", m.
+    max_range: Option<f64>,
 }
 
 impl Parameters {
@@ -26,6 +28,7 @@ impl Parameters {
         let known = match name {
             "robot_frontlaser_offset" => &mut self.offset,
             "laser_front_laser_resolution" => &mut self.spacing_deg,
+            "robot_front_laser_max" | "robot_frontlaser_max" => &mut self.max_range,
             _ => return,
         };
         *known = Some(value);
@@ -43,14 +46,21 @@ impl Parameters {
             beams,
             first_bearing: -FRAC_PI_2,
             spacing: said.filter(fits).unwrap_or(usual),
-            max_range: NOTHING_HIT,
+            max_range: (self.max_range)
+                .filter(|most| *most > 0.0)
+                .map_or(NOTHING_HIT, |most| most.min(NOTHING_HIT)),
         }
+    }
+
+    /// Returns the pose of the laser on the robot, as far as it is told.
+    pub(crate) fn mount(&self) -> Pose {
+        Pose::new(Point::new(self.offset.unwrap_or(0.0), 0.0), Heading::EAST)
     }
 
     /// Returns the pose of the laser on the robot. It is that of the parameters if the two poses of
     /// a FLASER agree with it, otherwise the middle.
     pub(crate) fn robot_from_laser(&self, odometry: Pose, laser: Pose) -> Pose {
-        let offset = Pose::new(Point::new(self.offset.unwrap_or(0.0), 0.0), Heading::EAST);
+        let offset = self.mount();
         let off = odometry.compose(offset).between(laser);
         let agrees = off.position.coords.norm() < 0.01 && off.heading.radians().abs() < 0.01;
         if agrees { offset } else { Pose::IDENTITY }

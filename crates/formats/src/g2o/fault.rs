@@ -15,13 +15,15 @@ pub struct G2oFault {
 #[non_exhaustive]
 pub enum G2oFaultKind {
     /// The line's first word is not one that the reader knows.
-    #[error("`{word}` is not read; only VERTEX_SE2, EDGE_SE2 and FIX are")]
+    #[error(
+        "`{word}` is not read; only VERTEX_SE2, EDGE_SE2, FIX, TORO's VERTEX2 and EDGE2, and planar VERTEX_SE3:QUAT and EDGE_SE3:QUAT are"
+    )]
     Unknown {
         /// First word of the line.
         word: String,
     },
     /// The line has too few numbers, or too many.
-    #[error("{word} has {found} numbers; expected {expected}")]
+    #[error("{word} has {found} numbers; expected {expected}{}", if *found + 6 == *expected { ": the information matrix is missing; add the inverse of the covariance, as `100 0 0 100 0 400` for 0.1 m and 0.05 rad" } else { "" })]
     Count {
         /// First word of the line.
         word: &'static str,
@@ -31,7 +33,7 @@ pub enum G2oFaultKind {
         expected: usize,
     },
     /// A number is not a finite number.
-    #[error("`{text}` is not a finite number; measure the line again or remove it")]
+    #[error("`{text}` is not a finite number; {}", if text.contains(',') { "write decimal points, not commas" } else { "measure the line again or remove it" })]
     Number {
         /// Text found in place of the number.
         text: String,
@@ -61,6 +63,12 @@ pub enum G2oFaultKind {
     Loop {
         /// Id of the pose.
         id: u64,
+    },
+    /// A pose or an edge in space does not lie in the plane.
+    #[error("it does not lie in the plane: {why}; give a graph of a robot on a level floor")]
+    NotPlanar {
+        /// What leaves the plane.
+        why: &'static str,
     },
     /// The information matrix is not positive definite.
     #[error("the information matrix is not positive definite; give the inverse of a covariance")]

@@ -8,6 +8,8 @@ pub enum LogEntry {
     Odometry(LogOdometry),
     /// Readings of the robot's laser, with the pose by its wheels at the same time.
     Scan(LogScan),
+    /// Readings of a laser without the robot's pose, which other entries have.
+    BareScan(LogScan),
 }
 
 /// Pose of a robot by its wheels.

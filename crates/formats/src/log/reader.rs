@@ -34,7 +34,7 @@ pub struct LogReader<R> {
 const JUMP_S: f64 = 60.0;
 
 impl LogReader<Box<dyn BufRead + Send>> {
-    /// Opens a file, plain or gzipped, of which `most` bytes of text may be read, as a
+    /// Opens a file, plain or packed, of which `most` bytes of text may be read, as a
     /// rule [`MOST_BYTES`](crate::input::MOST_BYTES). If there are more, the report has
     /// [`LogTrouble::TooLarge`].
     ///
@@ -83,6 +83,13 @@ impl<R: BufRead> LogReader<R> {
                 Self::scan(report, read)
             }
             "ROBOTLASER1" => Self::scan(report, carmen::robot_laser(line, &mut fields)?),
+            "RAWLASER1" => {
+                let read = carmen::raw_laser(line, &mut fields, parameters)?;
+                match Self::scan(report, read) {
+                    LogEntry::Scan(scan) => LogEntry::BareScan(scan),
+                    other => other,
+                }
+            }
             "O" => LogEntry::Odometry(wean::odometry(line, &mut fields)?),
             "L" => Self::scan(report, wean::laser(line, &mut fields, parameters)?),
             _ if kind.starts_with('#') => return Ok(None),
@@ -91,6 +98,7 @@ impl<R: BufRead> LogReader<R> {
                 return Ok(None);
             }
         };
+        report.met_kind(kind, line);
         // The host and the logger's time are missing in some logs.
         if fields.left() > 2 {
             let more = format!("{} more", fields.left() - 2);
@@ -119,7 +127,7 @@ impl<R: BufRead> LogReader<R> {
                 self.report.odometry += 1;
                 (odometry.line, odometry.time, &mut self.times[0])
             }
-            LogEntry::Scan(scan) => {
+            LogEntry::Scan(scan) | LogEntry::BareScan(scan) => {
                 self.report.scans += 1;
                 (scan.line, scan.time, &mut self.times[1])
             }

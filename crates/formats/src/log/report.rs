@@ -2,7 +2,7 @@ use alloc::collections::BTreeMap;
 use core::fmt;
 use std::path::Path;
 
-use super::LogError;
+use super::{LogError, LogTopic};
 
 /// Report on reading a log: its contents, and the parts that were left out.
 ///
@@ -28,6 +28,10 @@ pub struct LogReport {
     pub scans: u64,
     /// Number of scans in which no beam hit anything.
     pub empty_scans: u64,
+    /// Lines that were used, by their first word.
+    pub kinds: BTreeMap<String, KindCount>,
+    /// Choices that were made for the whole log, one sentence each.
+    pub notes: Vec<String>,
     /// Lines of other kinds, by their first word. After fifty kinds, all others are counted under
     /// `…`.
     pub other_kinds: BTreeMap<String, KindCount>,
@@ -65,10 +69,10 @@ pub enum LogTrouble {
     NoText,
     /// The line is longer than a megabyte. Left out.
     TooLong,
-    /// A range is negative or not a number. The scan is used, as if the beam had hit nothing.
+    /// A range is negative, zero, below the laser's least range or not a number. The beam says
+    /// nothing; the scan is used.
     NoRange,
-    /// The line's time is earlier than that of the line above. It is used, in the order of the
-    /// file.
+    /// The line's time is earlier than that of the line above. It is used.
     BackInTime,
     /// The clock jumps by more than a minute. It is used.
     ClockJump,
@@ -82,6 +86,10 @@ pub enum LogTrouble {
     NoOdometry,
     /// The laser's position is unknown. It is assumed to be in the robot's middle.
     NoMount,
+    /// The laser stands on its edge, so its scan is no plan of the floor. Left out.
+    OnEdge,
+    /// The laser's greatest range is not given. It is taken to be the greatest that was measured.
+    NoMaxRange,
     /// The line has more fields than expected. It is used without them.
     TooManyFields,
 }
@@ -91,21 +99,31 @@ const MOST_KINDS: usize = 50;
 /// Maximum number of lines listed for each kind of trouble.
 const NAMED: usize = 5;
 /// Maximum length of a word in the report, characters; longer words are cut.
-const LONGEST_WORD: usize = 24;
+const LONGEST_WORD: usize = 60;
 
 impl LogReport {
+    /// Counts a line that is used.
+    pub(crate) fn met_kind(&mut self, kind: &str, line: u64) {
+        add(&mut self.kinds, kind, line, 1);
+    }
+
+    /// Counts a line that is not used.
     pub(crate) fn met_other_kind(&mut self, kind: &str, line: u64) {
-        let kind: String = kind.chars().take(LONGEST_WORD).collect();
-        let is_known = self.other_kinds.contains_key(&kind);
-        let kind = match is_known || self.other_kinds.len() < MOST_KINDS {
-            true => kind,
-            false => "…".to_owned(),
-        };
-        let first = KindCount {
-            count: 0,
-            first_line: line,
-        };
-        self.other_kinds.entry(kind).or_insert(first).count += 1;
+        self.met_other_kinds(kind, line, 1);
+    }
+
+    pub(crate) fn met_other_kinds(&mut self, kind: &str, first_line: u64, count: u64) {
+        add(&mut self.other_kinds, kind, first_line, count);
+    }
+
+    /// Returns all kinds of lines, in the order of their first.
+    pub(crate) fn kinds(&self) -> Vec<LogTopic> {
+        let all = self.kinds.iter().chain(&self.other_kinds);
+        let mut all: Vec<LogTopic> = all
+            .map(|(kind, met)| LogTopic::of_lines(kind, *met))
+            .collect();
+        all.sort_by_key(|kind| kind.first);
+        all
     }
 
     pub(crate) fn met_trouble(&mut self, trouble: LogTrouble, line: u64, what: impl Into<String>) {
@@ -156,6 +174,7 @@ impl LogReport {
                 "{empty_scans} of {scans} scans hit nothing; are the ranges in metres?"
             ));
         }
+        told.extend(self.notes.iter().cloned());
         told.extend(self.other_kinds.iter().map(|(kind, met)| {
             let KindCount { count, first_line } = met;
             format!("{kind}: {count} × not used, first in line {first_line}")
@@ -166,6 +185,21 @@ impl LogReport {
     }
 }
 
+fn add(kinds: &mut BTreeMap<String, KindCount>, kind: &str, first_line: u64, count: u64) {
+    let kind: String = kind
+        .chars()
+        .filter(|letter| !letter.is_control())
+        .take(LONGEST_WORD)
+        .collect();
+    let is_known = kinds.contains_key(&kind) || kinds.len() < MOST_KINDS;
+    let kind = if is_known { kind } else { "…".to_owned() };
+    let first = KindCount {
+        count: 0,
+        first_line,
+    };
+    kinds.entry(kind).or_insert(first).count += count;
+}
+
 impl fmt::Display for LogTrouble {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -173,8 +207,8 @@ impl fmt::Display for LogTrouble {
             Self::NoNumber => "fields that are not finite numbers, their lines left out",
             Self::NoText => "lines that are not text, left out",
             Self::TooLong => "lines longer than a megabyte, left out",
-            Self::NoRange => "ranges that are not numbers, taken for beams that hit nothing",
-            Self::BackInTime => "times before those of the line above, used in the file's order",
+            Self::NoRange => "ranges that are no lengths or below the least, which say nothing",
+            Self::BackInTime => "times before those of the line above, used",
             Self::ClockJump => "jumps of the clock by more than a minute, used",
             Self::EndsEarly => "the file cannot be read to its end; the lines before are used",
             Self::TooLarge => "the file holds more text than may be read",
@@ -182,6 +216,10 @@ impl fmt::Display for LogTrouble {
             Self::NoOdometry => "scans of times without odometry, left out",
             Self::NoMount => {
                 "scans of lasers whose position is unknown, assumed to be the robot's middle"
+            }
+            Self::OnEdge => "scans of lasers that stand on their edge, left out",
+            Self::NoMaxRange => {
+                "scans without a greatest range, taken to be the greatest that was measured"
             }
             Self::TooManyFields => {
                 "lines with more fields than they should have, used without them"

@@ -1,17 +1,17 @@
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::{Path, PathBuf};
 
-use flate2::bufread::MultiGzDecoder;
 use thiserror::Error;
 
 use crate::input;
+use crate::unpack::{Unpacked, unpacked};
 
 /// Reason why an outside file cannot be used at all.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LogError {
     /// The file cannot be opened.
-    #[error("cannot read {}; give a file that is there, plain or packed by gzip", path.display())]
+    #[error("cannot read {}; give a file that is there, plain or packed by gzip, bzip2, xz or zstd", path.display())]
     File {
         /// Path of the file.
         path: PathBuf,
@@ -28,40 +28,25 @@ pub enum LogError {
     },
 }
 
-/// First bytes of a gzip file.
-const GZIP: [u8; 2] = [0x1f, 0x8b];
-
-/// First bytes of an MCAP file.
-const MCAP: [u8; 8] = *b"\x89MCAP0\r\n";
-
-/// Returns whether a file begins as an MCAP file, the format of ROS 2 bags.
-#[must_use]
-pub fn is_mcap(path: &Path) -> bool {
-    let mut first = [0; MCAP.len()];
-    let read = input::open(path).and_then(|mut file| file.read_exact(&mut first));
-    read.is_ok() && first == MCAP
-}
-
-/// Opens a file, plain or gzipped, of which `most` bytes of text may be read.
-pub(crate) fn open(path: &Path, most: u64) -> Result<Box<dyn BufRead + Send>, LogError> {
-    let wrong = |source| LogError::File {
+/// Opens a file of lines, plain or packed, of which `most` bytes of text may be read.
+pub(crate) fn open(path: &Path, most: u64) -> Result<Unpacked, LogError> {
+    let opened = input::open(path).and_then(unpacked);
+    let (_, whole) = opened.map_err(|source| LogError::File {
         path: path.to_owned(),
         source,
-    };
-    let mut file = BufReader::new(input::open(path).map_err(wrong)?);
-    let is_packed = file.fill_buf().map_err(wrong)?.starts_with(&GZIP);
+    })?;
+    Ok(text(whole, most))
+}
+
+/// Returns a source of text without its byte order mark, which fails after `most` bytes.
+pub(crate) fn text(source: Unpacked, most: u64) -> Unpacked {
     let left = most;
-    let mut text: Box<dyn BufRead + Send> = if is_packed {
-        let source = MultiGzDecoder::new(file);
-        Box::new(BufReader::new(Budget { source, left }))
-    } else {
-        Box::new(BufReader::new(Budget { source: file, left }))
-    };
+    let mut text = BufReader::new(Budget { source, left });
     // A fault of the first bytes is met again, by who reads them.
     if text.fill_buf().is_ok_and(|bytes| bytes.starts_with(MARK)) {
         text.consume(MARK.len());
     }
-    Ok(text)
+    Box::new(text)
 }
 
 /// Byte order mark of UTF-8.

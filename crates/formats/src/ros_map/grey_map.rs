@@ -1,6 +1,12 @@
+use std::io::Cursor;
+
+use png::{Decoder, DecodingError, Limits, Transformations};
 use thiserror::Error;
 
-/// A grey picture in the portable grey map format (PGM), binary (`P5`) or plain (`P2`).
+use crate::input::MOST_BYTES;
+
+/// A grey picture in the portable grey map format (PGM), binary (`P5`) or plain (`P2`), or a PNG, of
+/// which each pixel has the mean of its colours.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GreyMap {
     /// Number of columns.
@@ -18,8 +24,14 @@ pub struct GreyMap {
 #[non_exhaustive]
 pub enum GreyMapError {
     /// The file does not begin as a grey picture.
-    #[error("byte 0: expected P5 or P2; save the picture as a grey PGM")]
+    #[error("byte 0: expected P5 or P2; save the picture as a grey PGM or a PNG")]
     Magic,
+    /// The PNG cannot be decoded.
+    #[error("the PNG cannot be read: {why}; save the picture again")]
+    Png {
+        /// Error of the decoder.
+        why: String,
+    },
     /// A number is expected.
     #[error("byte {byte}: expected {what}; save the picture again as a PGM")]
     Number {
@@ -62,6 +74,44 @@ pub enum GreyMapError {
     },
 }
 
+/// Returns the picture of a PNG.
+fn png(bytes: &[u8]) -> Result<GreyMap, GreyMapError> {
+    let wrong = |error: DecodingError| GreyMapError::Png {
+        why: error.to_string(),
+    };
+    let limits = Limits {
+        bytes: usize::try_from(MOST_BYTES).unwrap_or(usize::MAX),
+    };
+    let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), limits);
+    decoder.set_transformations(Transformations::normalize_to_color8());
+    let mut reader = decoder.read_info().map_err(wrong)?;
+    let size = reader
+        .output_buffer_size()
+        .filter(|size| *size as u64 <= MOST_BYTES);
+    let size = size.ok_or_else(|| GreyMapError::Png {
+        why: "it is too large".to_owned(),
+    })?;
+    let mut pixels = vec![0; size];
+    let frame = reader.next_frame(&mut pixels).map_err(wrong)?;
+    let samples = frame.color_type.samples();
+    let colours = if samples < 3 { 1 } else { 3 };
+    let values = pixels.chunks_exact(samples).map(|pixel| {
+        let sum: u16 = pixel
+            .iter()
+            .take(colours.into())
+            .map(|part| u16::from(*part))
+            .sum();
+        sum / colours
+    });
+    let (width, height) = (frame.width as usize, frame.height as usize);
+    Ok(GreyMap {
+        width,
+        height,
+        most: 255,
+        values: values.take(width * height).collect(),
+    })
+}
+
 /// Maximum side of a picture, pixels; a longer one is a damaged header, not a map.
 const MOST_SIDE: u32 = 100_000;
 
@@ -73,6 +123,7 @@ impl GreyMap {
     /// [`GreyMapError`] with the byte at fault.
     pub fn parse(bytes: &[u8]) -> Result<Self, GreyMapError> {
         let plain = match bytes.get(..2) {
+            Some(b"\x89P") => return png(bytes),
             Some(b"P2") => true,
             Some(b"P5") => false,
             _ => return Err(GreyMapError::Magic),
@@ -216,6 +267,26 @@ fn shade(byte: usize, value: u64, most: u16) -> Result<u16, GreyMapError> {
 
 #[cfg(test)]
 mod tests {
+    #[test]
+    fn a_png_has_the_mean_of_its_colours() {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, 2, 1);
+        encoder.set_color(png::ColorType::Rgba);
+        let mut writer = encoder.write_header().unwrap();
+        writer
+            .write_image_data(&[0, 30, 60, 255, 254, 254, 254, 0])
+            .unwrap();
+        writer.finish().unwrap();
+        let picture = GreyMap::parse(&bytes).unwrap();
+        assert_eq!(
+            (picture.width, picture.height, picture.values),
+            (2, 1, vec![30, 254])
+        );
+        for end in 0..bytes.len() {
+            let _ = GreyMap::parse(&bytes[..end]);
+        }
+    }
+
     use proptest::prelude::*;
 
     use super::*;

@@ -11,8 +11,10 @@ pub struct RosMapHeader {
     pub image: String,
     /// Size of a cell, m.
     pub resolution: f64,
-    /// Position of the south-west corner of the grid, m.
+    /// Position of the picture's lower left corner, m.
     pub origin: Point,
+    /// Turn of the picture about that corner, rad counter-clockwise.
+    pub yaw: f64,
     /// Whether white means occupied.
     pub negate: bool,
     /// Value above which a cell is occupied, 0 … 1.
@@ -51,16 +53,6 @@ pub enum RosMapHeaderError {
         /// Values that the key may have, in words.
         expected: &'static str,
     },
-    /// The map is turned.
-    #[error(
-        "line {line}: the map is turned by {yaw} rad; turn its picture, and set the third number of `origin` to 0"
-    )]
-    Turned {
-        /// Number of the line.
-        line: usize,
-        /// Rotation of the map, counter-clockwise, rad.
-        yaw: f64,
-    },
     /// A key is missing.
     #[error("the key `{key}` is missing; add it as map_server writes it")]
     Missing {
@@ -70,20 +62,22 @@ pub enum RosMapHeaderError {
 }
 
 impl RosMapHeader {
-    /// Reads the YAML that map_server and map_saver write: flat keys, lists in brackets or in lines
-    /// with a dash. Keys that are not of map_server are ignored.
+    /// Reads the YAML that map_server and map_saver write: flat keys, in lines or in braces, and lists
+    /// in brackets or in lines with a dash. Keys that are not of map_server are ignored.
     ///
     /// # Errors
     /// [`RosMapHeaderError`] with the line at fault.
     pub fn parse(text: &str) -> Result<Self, RosMapHeaderError> {
         let entries = Entries::parse(input::without_mark(text))?;
         entries.check_mode()?;
+        let (origin, yaw) = entries.origin()?;
         Ok(Self {
+            yaw,
             image: entries.image()?,
             resolution: entries.number("resolution", "a positive number of metres", |value| {
                 value > 0.0
             })?,
-            origin: entries.origin()?,
+            origin,
             negate: entries.negate()?,
             occupied_thresh: entries.share("occupied_thresh")?,
             free_thresh: entries.free_thresh()?,
@@ -118,7 +112,14 @@ impl Entries {
     fn parse(text: &str) -> Result<Self, RosMapHeaderError> {
         let mut entries = Self(Vec::new());
         for (line, text) in (1..).zip(text.lines()) {
-            entries.take(line, without_comment(text))?;
+            let text = without_comment(text).trim();
+            match text
+                .strip_prefix('{')
+                .and_then(|text| text.strip_suffix('}'))
+            {
+                Some(inside) => items(inside).try_for_each(|item| entries.take(line, item))?,
+                None => entries.take(line, text)?,
+            }
         }
         Ok(entries)
     }
@@ -140,7 +141,7 @@ impl Entries {
         if self.0.iter().any(|entry| entry.key == key) {
             return Err(RosMapHeaderError::Twice { line, key });
         }
-        let value = value.trim().to_owned();
+        let value = value.trim().trim_matches(['"', '\'']).to_owned();
         self.0.push(Entry { line, key, value });
         Ok(())
     }
@@ -153,10 +154,9 @@ impl Entries {
 
     fn image(&self) -> Result<String, RosMapHeaderError> {
         let entry = self.find("image")?;
-        let name = entry.value.trim_matches(['"', '\'']);
-        match name.is_empty() {
+        match entry.value.is_empty() {
             true => Err(entry.wrong("image", "the name of a picture")),
-            false => Ok(name.to_owned()),
+            false => Ok(entry.value.clone()),
         }
     }
 
@@ -189,25 +189,21 @@ impl Entries {
         }
     }
 
-    fn origin(&self) -> Result<Point, RosMapHeaderError> {
+    fn origin(&self) -> Result<(Point, f64), RosMapHeaderError> {
         let entry = self.find("origin")?;
         let items = entry.value.trim_matches(['[', ']', ',', ' ']).split(',');
         let numbers: Option<Vec<f64>> = items.map(number).collect();
         match numbers.as_deref() {
-            Some([x, y, yaw]) if yaw.abs() < 1e-9 => Ok(Point::new(*x, *y)),
-            Some([_, _, yaw]) => Err(RosMapHeaderError::Turned {
-                line: entry.line,
-                yaw: *yaw,
-            }),
+            Some([x, y, yaw]) => Ok((Point::new(*x, *y), *yaw)),
             _ => Err(entry.wrong("origin", "[x, y, yaw] in metres and radians")),
         }
     }
 
     fn negate(&self) -> Result<bool, RosMapHeaderError> {
         let entry = self.find("negate")?;
-        match entry.value.as_str() {
-            "0" | "false" => Ok(false),
-            "1" | "true" => Ok(true),
+        match entry.value.to_ascii_lowercase().as_str() {
+            "0" | "false" | "no" | "off" => Ok(false),
+            "1" | "true" | "yes" | "on" => Ok(true),
             _ => Err(entry.wrong("negate", "0 or 1")),
         }
     }
@@ -215,7 +211,9 @@ impl Entries {
     /// Refuses a `mode` in which the thresholds mean something else: all but `trinary` and `scale`.
     fn check_mode(&self) -> Result<(), RosMapHeaderError> {
         match self.find("mode") {
-            Ok(entry) if !["trinary", "scale"].contains(&entry.value.as_str()) => {
+            Ok(entry)
+                if !["trinary", "scale"].contains(&entry.value.to_ascii_lowercase().as_str()) =>
+            {
                 Err(entry.wrong("mode", "trinary or scale"))
             }
             _ => Ok(()),
@@ -232,6 +230,19 @@ impl Entry {
             expected,
         }
     }
+}
+
+/// Returns the items between the commas of braces. Commas within brackets separate none.
+fn items(text: &str) -> impl Iterator<Item = &str> {
+    let mut depth = 0;
+    text.split(move |letter| {
+        match letter {
+            '[' => depth += 1,
+            ']' => depth -= 1,
+            _ => {}
+        }
+        letter == ',' && depth == 0
+    })
 }
 
 /// Returns the line up to a # that begins it or follows a blank.
@@ -290,6 +301,20 @@ free_thresh: 0.196
     }
 
     #[test]
+    fn what_yaml_means_alike_is_read_alike() {
+        let plain = RosMapHeader::parse(YAML).unwrap();
+        let again = YAML
+            .replace("mode: trinary", "mode: \"Trinary\"")
+            .replace("negate: 0", "negate: False");
+        assert_eq!(RosMapHeader::parse(&again).unwrap(), plain);
+        let braces = "{image: hall-2.pgm, resolution: 0.05, origin: [-10.0, 3.5, 0.0], negate: no, \
+                      occupied_thresh: 0.65, free_thresh: 0.196}";
+        assert_eq!(RosMapHeader::parse(braces).unwrap(), plain);
+        let turned = RosMapHeader::parse(&YAML.replace("0.000000]", "1.57]")).unwrap();
+        assert!((turned.yaw - 1.57).abs() < 1e-12);
+    }
+
+    #[test]
     fn what_is_wrong_is_told_with_its_line() {
         for (from, to, expect) in [
             ("negate: 0", "negate 0", "line 6: expected `key: value`"),
@@ -310,7 +335,11 @@ free_thresh: 0.196
                 "line 4: `resolution` is `0`; expected a positive number",
             ),
             ("0.050000", "NaN", "line 4: `resolution` is `NaN`"),
-            ("0.000000", "1.57", "line 5: the map is turned by 1.57 rad"),
+            (
+                "0.000000",
+                "east",
+                "line 5: `origin` is `[-10.0, 3.5, east]`",
+            ),
             ("-10.0, 3.5, ", "", "line 5: `origin` is `[0.000000]`"),
             ("0.196", "2", "line 8: `free_thresh` is `2`"),
             (

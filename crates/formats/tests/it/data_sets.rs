@@ -5,7 +5,8 @@ use std::path::PathBuf;
 
 use tolman_formats::geom::Point;
 use tolman_formats::{
-    BarcodeSighting, LogEntry, LogReader, LogTrouble, LogVelocity, SonarTable, TucDrive, UtiasRobot,
+    BarcodeSighting, LogEntry, LogOptions, LogReader, LogTrouble, LogVelocity, SonarTable,
+    TucDrive, UtiasRobot, WholeLog,
 };
 
 /// Returns a folder of its own, with these files.
@@ -34,8 +35,10 @@ fn wean_hall_is_read_in_metres() {
     assert_eq!((scan.time, scan.scan.ranges.len()), (0.2, 180));
     assert_eq!(scan.scan.ranges, [2.5; 180]);
     assert!((scan.scan.ring.spacing.to_degrees() - 1.0).abs() < 1e-12);
-    assert!((scan.robot_from_laser.position.x - 0.25).abs() < 1e-12);
     assert_eq!(reader.report().count(LogTrouble::Cut), 1);
+    let whole = WholeLog::of_bytes(log.into_bytes(), &LogOptions::whole()).unwrap();
+    let mount = whole.scans[0].robot_from_laser.position;
+    assert!((mount.x - 0.25).abs() < 1e-12);
 }
 
 const BARCODES: &str = "# Subject # Barcode #\n 1 5\n 6 72\n";

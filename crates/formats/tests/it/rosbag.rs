@@ -1,171 +1,436 @@
-//! Bags of ROS 2, written by the crate that reads them and by another program.
+//! Bags of ROS: written here, by SQLite, and by another program.
 #![expect(clippy::float_cmp, reason = "what was written is read to the bit")]
 
-use alloc::collections::BTreeMap;
 use std::fs;
-use std::io::Cursor;
+use std::io::Write;
 use std::path::PathBuf;
 use std::process::Command;
 
-use mcap::Writer;
-use mcap::records::MessageHeader;
-use serde::Serialize;
-use tolman_formats::input::MOST_BYTES;
-use tolman_formats::{LogEntry, LogScan, LogTrouble, RosBag, is_mcap};
+use bzip2::write::BzEncoder;
+use lz4_flex::frame::FrameEncoder;
+use proptest::prelude::*;
+use ruzstd::encoding::{CompressionLevel, compress_to_vec};
+use tolman_formats::{LogOptions, LogScan, LogTimes, LogTrouble, WholeLog};
 
-#[derive(Serialize)]
-struct Header {
-    stamp: (i32, u32),
-    frame: &'static str,
+/// Layout of a message.
+#[derive(Clone, Copy, PartialEq)]
+enum Ros {
+    One,
+    Two,
 }
 
-const fn header(sec: i32, frame: &'static str) -> Header {
-    Header {
-        stamp: (sec, 500_000_000),
-        frame,
-    }
+/// A message that is written.
+struct Body {
+    ros: Ros,
+    bytes: Vec<u8>,
 }
 
-#[derive(Serialize)]
-struct LaserScan {
-    header: Header,
-    /// First and last angle, spacing, two times, least and greatest range.
-    numbers: [f32; 7],
-    ranges: Vec<f32>,
-    intensities: Vec<f32>,
-}
-
-fn scan(sec: i32, ranges: &[f32]) -> LaserScan {
-    LaserScan {
-        header: header(sec, "laser"),
-        numbers: [-1.0, 1.0, 1.0, 0.0, 0.1, 0.1, 30.0],
-        ranges: ranges.to_vec(),
-        intensities: Vec::new(),
-    }
-}
-
-/// Returns a pose on the floor, turned to the left by a quarter, and what comes after it.
-fn odometry(sec: i32, x: f64) -> impl Serialize {
-    let half = core::f64::consts::FRAC_1_SQRT_2;
-    (
-        header(sec, "odom"),
-        "base_link",
-        [x, 0.0, 0.0],
-        [0.0, 0.0, half, half],
-        [1.0; 20],
-    )
-}
-
-fn mount() -> impl Serialize {
-    (
-        1_u32,
-        header(0, "base_link"),
-        "laser",
-        [0.25, 0.0, 0.3],
-        [0.0, 0.0, 0.0, 1.0],
-    )
-}
-
-struct Bag {
-    writer: Writer<Cursor<Vec<u8>>>,
-    time: u64,
-}
-
-impl Bag {
-    fn new() -> Self {
-        let writer = Writer::new(Cursor::new(Vec::new())).unwrap();
-        Self { writer, time: 0 }
+impl Body {
+    fn of(ros: Ros) -> Self {
+        let bytes = Vec::new();
+        Self { ros, bytes }
     }
 
-    fn add(&mut self, topic: &str, kind: &str, message: &impl Serialize) {
-        let schema = self.writer.add_schema(kind, "ros2msg", b"").unwrap();
-        let none = BTreeMap::new();
-        let channel_id = self
-            .writer
-            .add_channel(schema, topic, "cdr", &none)
-            .unwrap();
-        let mut data = vec![0, 1, 0, 0];
-        data.extend(cdr_encoding::to_vec::<_, byteorder::LittleEndian>(message).unwrap());
-        self.time += 1;
-        let header = MessageHeader {
-            channel_id,
-            sequence: 0,
-            log_time: self.time,
-            publish_time: self.time,
+    fn number(mut self, bytes: &[u8]) -> Self {
+        if self.ros == Ros::Two {
+            let size = self.bytes.len().next_multiple_of(bytes.len());
+            self.bytes.resize(size, 0);
+        }
+        self.bytes.extend(bytes);
+        self
+    }
+
+    fn count(self, count: u32) -> Self {
+        self.number(&count.to_le_bytes())
+    }
+
+    fn floats(self, floats: &[f32]) -> Self {
+        let mut all = floats.iter();
+        all.try_fold(self, |body, float| Some(body.number(&float.to_le_bytes())))
+            .unwrap()
+    }
+
+    fn doubles(self, doubles: &[f64]) -> Self {
+        let mut all = doubles.iter();
+        all.try_fold(self, |body, double| {
+            Some(body.number(&double.to_le_bytes()))
+        })
+        .unwrap()
+    }
+
+    fn text(self, text: &str) -> Self {
+        let end = if self.ros == Ros::Two { "\0" } else { "" };
+        let text = format!("{text}{end}");
+        let mut body = self.count(u32::try_from(text.len()).unwrap());
+        body.bytes.extend(text.as_bytes());
+        body
+    }
+
+    fn header(self, sec: u32, frame: &str) -> Self {
+        let body = if self.ros == Ros::One {
+            self.count(7)
+        } else {
+            self
         };
-        self.writer.write_to_known_channel(&header, &data).unwrap();
+        body.count(sec).count(500_000_000).text(frame)
     }
 
-    fn bytes(mut self) -> Vec<u8> {
-        self.writer.finish().unwrap();
-        self.writer.into_inner().into_inner()
+    fn done(self) -> Vec<u8> {
+        let head: &[u8] = if self.ros == Ros::Two {
+            &[0, 1, 0, 0]
+        } else {
+            &[]
+        };
+        [head, &self.bytes].concat()
     }
 }
+
+fn scan(ros: Ros, sec: u32, ranges: &[f32]) -> Vec<u8> {
+    let count = u32::try_from(ranges.len()).unwrap();
+    let body = Body::of(ros).header(sec, "/laser");
+    let body = body.floats(&[-1.0, 1.0, 1.0, 0.0, 0.1, 0.1, 30.0]);
+    body.count(count).floats(ranges).count(0).done()
+}
+
+/// Returns odometry of a robot that looks left.
+fn odometry(ros: Ros, sec: u32, x: f64) -> Vec<u8> {
+    let half = core::f64::consts::FRAC_1_SQRT_2;
+    let body = Body::of(ros).header(sec, "odom").text("base_link");
+    body.doubles(&[x, 0.0, 0.0, 0.0, 0.0, half, half])
+        .doubles(&[1.0; 36])
+        .done()
+}
+
+/// Returns the transform of a part, by its position and its orientation x, y, z, w.
+fn transform(ros: Ros, sec: u32, [on, part]: [&str; 2], at: [f64; 3], turned: [f64; 4]) -> Vec<u8> {
+    let body = Body::of(ros).count(1).header(sec, on).text(part);
+    body.doubles(&at).doubles(&turned).done()
+}
+
+const LEVEL: [f64; 4] = [0.0, 0.0, 0.0, 1.0];
+
+/// A message with its topic, its type and the second of its receipt.
+type Sent = (&'static str, &'static str, u32, Vec<u8>);
 
 const SCAN: &str = "sensor_msgs/msg/LaserScan";
 const ODOMETRY: &str = "nav_msgs/msg/Odometry";
+const TRANSFORM: &str = "tf2_msgs/msg/TFMessage";
 
-fn drive(has_mount: bool) -> Vec<u8> {
-    let mut bag = Bag::new();
-    if has_mount {
-        bag.add("/tf_static", "tf2_msgs/msg/TFMessage", &mount());
-    }
-    bag.add("/scan", SCAN, &scan(0, &[1.0, 2.0, 3.0]));
-    bag.add("/odom", ODOMETRY, &odometry(1, 0.0));
-    bag.add("/scan", SCAN, &scan(2, &[1.0, f32::NAN, 0.05]));
-    bag.add("/other_scan", SCAN, &scan(2, &[1.0]));
-    bag.add("/odom", ODOMETRY, &odometry(3, 2.0));
-    bag.bytes()
+fn drive(ros: Ros) -> Vec<Sent> {
+    let mount = transform(ros, 0, ["base_link", "laser"], [0.25, 0.0, 0.3], LEVEL);
+    vec![
+        ("/tf_static", TRANSFORM, 0, mount),
+        ("/scan", SCAN, 0, scan(ros, 0, &[1.0, 2.0, 3.0])),
+        ("/odom", ODOMETRY, 1, odometry(ros, 1, 0.0)),
+        ("/scan", SCAN, 2, scan(ros, 2, &[1.0, f32::NAN, 0.05])),
+        ("/other_scan", SCAN, 2, scan(ros, 2, &[f32::INFINITY, 60.0])),
+        ("/odom", ODOMETRY, 3, odometry(ros, 3, 2.0)),
+    ]
 }
 
-fn scans(bag: &RosBag) -> Vec<&LogScan> {
-    let entries = bag.entries.iter();
-    let scans = entries.filter_map(|entry| match entry {
-        LogEntry::Scan(scan) => Some(scan),
-        LogEntry::Odometry(_) => None,
+fn record(opcode: u8, parts: &[&[u8]]) -> Vec<u8> {
+    let body = parts.concat();
+    [&[opcode], &(body.len() as u64).to_le_bytes()[..], &body].concat()
+}
+
+fn text(text: &str) -> Vec<u8> {
+    let size = u32::try_from(text.len()).unwrap().to_le_bytes();
+    [&size, text.as_bytes()].concat()
+}
+
+fn packed(format: &str, bytes: &[u8]) -> Vec<u8> {
+    match format {
+        "lz4" => {
+            let mut encoder = FrameEncoder::new(Vec::new());
+            encoder.write_all(bytes).unwrap();
+            encoder.finish().unwrap()
+        }
+        "bz2" => {
+            let mut encoder = BzEncoder::new(Vec::new(), bzip2::Compression::fast());
+            encoder.write_all(bytes).unwrap();
+            encoder.finish().unwrap()
+        }
+        "zstd" => compress_to_vec(bytes, CompressionLevel::Fastest),
+        _ => bytes.to_vec(),
+    }
+}
+
+/// Returns an MCAP file whose messages lie in one chunk.
+fn mcap(format: &str, sent: &[Sent]) -> Vec<u8> {
+    let mut records = Vec::new();
+    for (id, (topic, kind, sec, data)) in (1_u16..).zip(sent) {
+        let id = id.to_le_bytes();
+        records.extend(record(3, &[&id, &text(kind), &text("ros2msg"), &[0; 4]]));
+        records.extend(record(4, &[&id, &id, &text(topic), &text("cdr"), &[0; 4]]));
+        let time = (u64::from(*sec) * 1_000_000_000 + 250_000_000).to_le_bytes();
+        records.extend(record(5, &[&id, &[0; 4], &time, &time, data]));
+    }
+    let chunk = packed(format, &records);
+    let size = (records.len() as u64).to_le_bytes();
+    let chunk = record(
+        6,
+        &[
+            &[0; 16],
+            &size,
+            &[0; 4],
+            &text(format),
+            &(chunk.len() as u64).to_le_bytes(),
+            &chunk,
+        ],
+    );
+    [b"\x89MCAP0\r\n", &chunk[..], &record(15, &[&[0; 4]])].concat()
+}
+
+fn block(fields: &[(&str, &[u8])]) -> Vec<u8> {
+    let fields = fields.iter().map(|(name, value)| {
+        let field = [name.as_bytes(), b"=", value].concat();
+        [
+            &u32::try_from(field.len()).unwrap().to_le_bytes(),
+            &field[..],
+        ]
+        .concat()
     });
-    scans.collect()
+    sized(&fields.collect::<Vec<_>>().concat())
+}
+
+fn sized(bytes: &[u8]) -> Vec<u8> {
+    [&u32::try_from(bytes.len()).unwrap().to_le_bytes(), bytes].concat()
+}
+
+/// Returns a bag of ROS 1 whose messages lie in one chunk.
+fn ros1(format: &str, sent: &[Sent]) -> Vec<u8> {
+    let mut records = Vec::new();
+    for (id, (topic, kind, sec, data)) in (0_u32..).zip(sent) {
+        let id = id.to_le_bytes();
+        let kind = kind.replace("/msg/", "/");
+        records.extend(block(&[
+            ("op", &[7]),
+            ("conn", &id),
+            ("topic", topic.as_bytes()),
+        ]));
+        records.extend(block(&[("type", kind.as_bytes())]));
+        let time = [sec.to_le_bytes(), 250_000_000_u32.to_le_bytes()].concat();
+        records.extend(block(&[("op", &[2]), ("conn", &id), ("time", &time)]));
+        records.extend(sized(data));
+    }
+    let size = u32::try_from(records.len()).unwrap().to_le_bytes();
+    let head = block(&[
+        ("op", &[5]),
+        ("compression", format.as_bytes()),
+        ("size", &size),
+    ]);
+    let first = [block(&[("op", &[3])]), sized(&[b' '; 9])].concat();
+    [
+        b"#ROSBAG V2.0\n",
+        &first[..],
+        &head,
+        &sized(&packed(format, &records)),
+    ]
+    .concat()
+}
+
+fn read(bytes: Vec<u8>) -> WholeLog {
+    WholeLog::of_bytes(bytes, &LogOptions::whole()).unwrap()
 }
 
 #[test]
-fn a_bag_is_read_with_where_the_robot_was() {
-    let bag = RosBag::of(&drive(true)[..]);
-    let scans = scans(&bag);
-    // The first was taken before any odometry.
-    assert_eq!(scans.len(), 1, "{:?}", bag.report);
-    assert_eq!(bag.report.count(LogTrouble::NoOdometry), 1);
-    let LogScan {
-        time,
-        odometry,
-        robot_from_laser,
-        scan,
-        ..
-    } = scans[0];
-    assert_eq!(*time, 2.5);
-    assert_eq!(odometry.position.x, 1.0);
-    assert!((odometry.heading.radians() - core::f64::consts::FRAC_PI_2).abs() < 1e-12);
-    assert_eq!(robot_from_laser.position.x, 0.25);
-    // Neither what is not a number nor what is nearer than the laser sees was hit.
-    assert_eq!(scan.ranges, [1.0, 30.0, 30.0]);
-    assert_eq!(bag.report.count(LogTrouble::NoRange), 1);
-    let others: Vec<&String> = bag.report.other_kinds.keys().collect();
-    assert!(others[0].starts_with("/other_scan"), "{others:?}");
+fn bags_of_both_ages_and_all_packings_are_read_with_where_the_robot_was() {
+    let two = ["", "lz4", "zstd"].map(|format| mcap(format, &drive(Ros::Two)));
+    let one = ["none", "lz4", "bz2"].map(|format| ros1(format, &drive(Ros::One)));
+    for bytes in two.into_iter().chain(one) {
+        for bytes in [packed("bz2", &bytes), packed("zstd", &bytes), bytes] {
+            let log = read(bytes);
+            // The first was taken before any odometry.
+            assert_eq!(log.scans.len(), 1, "{:?}", log.report);
+            assert_eq!(log.report.count(LogTrouble::NoOdometry), 1);
+            let LogScan {
+                time,
+                odometry,
+                robot_from_laser,
+                scan,
+                ..
+            } = &log.scans[0];
+            assert_eq!((*time, odometry.position.x), (2.5, 1.0));
+            let turned = odometry.heading.radians() - core::f64::consts::FRAC_PI_2;
+            assert!(turned.abs() < 1e-9);
+            assert_eq!(robot_from_laser.position.x, 0.25);
+            // Neither what is not a number nor what is nearer than the laser sees was met.
+            assert_eq!(scan.ranges, [1.0, 30.0, 30.0]);
+            assert_eq!(log.report.count(LogTrouble::NoRange), 1);
+            // Another laser met less, and is named.
+            assert!(
+                log.report.notes[0].contains("/other_scan"),
+                "{:?}",
+                log.report.notes
+            );
+        }
+    }
+}
+
+#[test]
+fn topics_and_times_are_chosen() {
+    let mut options = LogOptions::whole();
+    options.times = Some(LogTimes::Receipt);
+    options.scan_topics = vec!["/scan".to_owned(), "/other_scan".to_owned()];
+    let log = WholeLog::of_bytes(mcap("", &drive(Ros::Two)), &options).unwrap();
+    let times: Vec<f64> = log.scans.iter().map(|scan| scan.time).collect();
+    assert_eq!(times, [2.25, 2.25]);
+    options.odom_topic = Some("/wheels".to_owned());
+    let wrong = WholeLog::of_bytes(mcap("", &drive(Ros::Two)), &options).unwrap_err();
+    assert!(
+        wrong.contains("/wheels") && wrong.contains("/odom"),
+        "{wrong}"
+    );
+    let mut stamped = drive(Ros::Two);
+    for sent in stamped.iter_mut().filter(|sent| sent.1 == SCAN) {
+        sent.3 = scan(Ros::Two, 0, &[1.0, 2.0, 3.0]);
+    }
+    let log = read(mcap("", &stamped));
+    assert_eq!(log.scans.len(), 1);
+    assert!(
+        log.report.notes.iter().any(|note| note.contains("--times")),
+        "{:?}",
+        log.report
+    );
+}
+
+#[test]
+fn odometry_may_be_a_transform_or_missing() {
+    let mut sent = drive(Ros::Two);
+    sent.retain(|sent| sent.1 != ODOMETRY);
+    let blind = read(mcap("", &sent));
+    assert_eq!(blind.scans.len(), 2);
+    assert!(
+        blind
+            .report
+            .notes
+            .iter()
+            .any(|note| note.contains("no odometry"))
+    );
+    for sec in 0..4 {
+        let at = [f64::from(sec), 0.0, 0.0];
+        let moved = transform(Ros::Two, sec, ["/odom", "base_link"], at, LEVEL);
+        sent.push(("/tf", TRANSFORM, sec, moved));
+    }
+    let log = read(mcap("", &sent));
+    let at: Vec<f64> = log
+        .scans
+        .iter()
+        .map(|scan| scan.odometry.position.x)
+        .collect();
+    assert_eq!(at, [0.0, 2.0]);
+    assert_eq!(log.scans[0].robot_from_laser.position.x, 0.25);
+}
+
+#[test]
+fn a_laser_that_hangs_upside_down_sees_its_beams_mirrored() {
+    // By roll, by pitch, and by both, which is a turn.
+    let turned = [
+        [1.0, 0.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0, 0.0],
+        [0.0, 0.0, 1.0, 0.0],
+    ];
+    let left = turned.map(|turned| {
+        let mut sent = drive(Ros::Two);
+        sent[0].3 = transform(Ros::Two, 0, ["base_link", "laser"], [0.0; 3], turned);
+        let scan = read(mcap("", &sent)).scans.remove(0);
+        // Where the first beam, 1 rad to the laser's right, looks.
+        let beam = tolman_formats::geom::Heading::from_radians(scan.scan.ring.bearing(0));
+        let end = tolman_formats::geom::Point::from(beam.unit());
+        let end = scan.robot_from_laser.transform(end);
+        [end.x, end.y].map(|part| (part * 1e6).round() / 1e6)
+    });
+    let [ahead, aside] = [1_f64.cos(), 1_f64.sin()].map(|part| (part * 1e6).round() / 1e6);
+    assert_eq!(left, [[ahead, aside], [-ahead, -aside], [-ahead, aside]]);
+    let mut sent = drive(Ros::Two);
+    let half = core::f64::consts::FRAC_1_SQRT_2;
+    sent[0].3 = transform(
+        Ros::Two,
+        0,
+        ["base_link", "laser"],
+        [0.0; 3],
+        [half, 0.0, 0.0, half],
+    );
+    assert_eq!(read(mcap("", &sent)).report.count(LogTrouble::OnEdge), 1);
 }
 
 #[test]
 fn what_is_missing_or_cut_is_told() {
-    let bag = RosBag::of(&drive(false)[..]);
-    assert_eq!(bag.report.count(LogTrouble::NoMount), 1);
-    let whole = drive(true);
-    for end in (0..whole.len()).step_by(7) {
-        let cut = RosBag::of(&whole[..end]);
-        assert!(cut.entries.len() <= 3);
+    let without = &drive(Ros::Two)[1..];
+    assert_eq!(read(mcap("", without)).report.count(LogTrouble::NoMount), 1);
+    let none = &drive(Ros::Two)[..1];
+    let wrong = WholeLog::of_bytes(mcap("", none), &LogOptions::whole()).unwrap_err();
+    assert!(wrong.contains("/tf_static"), "{wrong}");
+    let database = fs::read(database()).unwrap();
+    let bags = [
+        mcap("lz4", &drive(Ros::Two)),
+        ros1("bz2", &drive(Ros::One)),
+        database,
+    ];
+    for whole in bags {
+        let step = 1 + whole.len() / 300;
+        for end in (0..whole.len()).step_by(step) {
+            let _ = WholeLog::of_bytes(whole[..end].to_vec(), &LogOptions::whole());
+            let mut spoiled = whole.clone();
+            spoiled[end] ^= 0x55;
+            let _ = WholeLog::of_bytes(spoiled, &LogOptions::whole());
+        }
     }
-    for place in (0..whole.len()).step_by(3) {
-        let mut spoiled = whole.clone();
-        spoiled[place] ^= 0x55;
-        let _ = RosBag::of(&spoiled[..]);
+}
+
+proptest! {
+    #[test]
+    fn no_bytes_are_too_strange(magic in 0..6_usize, bytes in prop::collection::vec(any::<u8>(), 0..80)) {
+        let magics: [&[u8]; 6] = [
+            b"\x89MCAP0\r\n", b"#ROSBAG V2.0\n", b"SQLite format 3\0", b"\x28\xb5\x2f\xfd",
+            b"\xfd7zXZ\0\0\x04\xe6\xd6\xb4\x46", b"BZh91AY&SY",
+        ];
+        let _ = WholeLog::of_bytes([magics[magic], &bytes].concat(), &LogOptions::whole());
     }
+}
+
+fn database() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data/drive.db3")
+}
+
+#[test]
+fn databases_and_folders_are_read() {
+    let plain = WholeLog::open(&database(), &LogOptions::whole()).unwrap();
+    assert_eq!((plain.scans.len(), plain.report.odometry), (8, 8));
+    assert_eq!(plain.scans[3].scan.ranges.len(), 300);
+    assert_eq!(plain.scans[3].robot_from_laser.position.x, 0.25);
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("bag-folder");
+    fs::create_dir_all(&folder).unwrap();
+    let bytes = fs::read(database()).unwrap();
+    fs::write(folder.join("b_0.db3.zstd"), packed("zstd", &bytes)).unwrap();
+    let metadata = "rosbag2_bagfile_information:\n  version: 5\n  relative_file_paths:\n    - b_0.db3.zstd\n  \
+                    compression_format: zstd\n  compression_mode: FILE\n";
+    fs::write(folder.join("metadata.yaml"), metadata).unwrap();
+    let log = WholeLog::open(&folder, &LogOptions::whole()).unwrap();
+    assert_eq!(log.scans, plain.scans);
+    let topics = WholeLog::list(&folder, u64::MAX).unwrap();
+    let names: Vec<(&str, u64)> = topics
+        .iter()
+        .map(|it| (it.name.as_str(), it.count))
+        .collect();
+    assert_eq!(names, [("/odom", 8), ("/scan", 8), ("/tf_static", 1)]);
+    assert_eq!(topics[1].rate_hz, Some(1.0));
+    assert_eq!(
+        (topics[0].frame.as_str(), topics[1].frame.as_str()),
+        ("base_link in odom", "laser")
+    );
+}
+
+#[test]
+fn xz_of_several_streams_is_unpacked() {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/data/log.clf.xz");
+    let log = WholeLog::open(&path, &LogOptions::whole()).unwrap();
+    assert_eq!(
+        (log.scans.len(), log.report.lines),
+        (16, 16),
+        "{:?}",
+        log.report
+    );
 }
 
 const WRITE: &str = "\
@@ -240,7 +505,7 @@ with open('drive.mcap', 'wb') as file:
 ";
 
 #[test]
-#[ignore = "fetches mcap-ros2-support from PyPI: cargo test -p tolman-formats --features mcap --test it -- --ignored rosbag"]
+#[ignore = "fetches mcap-ros2-support from PyPI: cargo test -p tolman-formats --test it -- --ignored rosbag"]
 fn what_others_have_written_is_read() {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("rosbag");
     fs::create_dir_all(&folder).unwrap();
@@ -259,11 +524,9 @@ fn what_others_have_written_is_read() {
     }
     assert!(run(python, &["-c", WRITE]));
     let path = folder.join("drive.mcap");
-    assert!(is_mcap(&path));
-    let bag = RosBag::read(&path, MOST_BYTES).unwrap();
-    let scans = scans(&bag);
-    assert_eq!(scans.len(), 3, "{:?}", bag.report);
-    assert_eq!(scans[2].odometry.position.x, 1.0);
-    assert_eq!(scans[2].scan.ranges, [1.0, 4.0, 30.0]);
-    assert!(bag.report.troubles.is_empty(), "{:?}", bag.report);
+    let log = WholeLog::open(&path, &LogOptions::whole()).unwrap();
+    assert_eq!(log.scans.len(), 3, "{:?}", log.report);
+    assert_eq!(log.scans[2].odometry.position.x, 1.0);
+    assert_eq!(log.scans[2].scan.ranges, [1.0, 4.0, 30.0]);
+    assert!(log.report.troubles.is_empty(), "{:?}", log.report);
 }

@@ -26,8 +26,8 @@ const OF_LAPS: f64 = 6.0;
 /// lower. Two closures are of one run if at most `gap` poses lie between them at both ends. They
 /// are also of one run if about the same way was driven between them at both ends, at most `most` m
 /// and three times the spacing of closures there; or if other closures link them like that. Where
-/// the lower poses of such a run reach its higher ones, the robot drove laps, and `most` is 6 m. Two
-/// closures for which `agree` is false do not err together, so they do not link a run.
+/// the lower poses of such a run reach its higher ones, the robot drove laps, and `most` is 6 m.
+/// Two closures for which `agree` is false do not err together, so they do not link a run.
 ///
 /// # Complexity
 /// O(n · m) for n closures of which at most m begin within `most` m.

@@ -1,14 +1,13 @@
+use alloc::borrow::Cow;
 use alloc::collections::{BTreeMap, BTreeSet};
 use core::error::Error;
 use std::path::Path;
 
 use tolman_arena::registry::LogMapper;
 use tolman_experiment::BoxError;
-#[cfg(feature = "mcap")]
-use tolman_formats::RosBag;
-use tolman_formats::input::MOST_BYTES;
-use tolman_formats::{LogEntry, LogReader, LogReport, LogScan, LogTrouble, is_mcap};
-use tolman_geom::Pose;
+use tolman_formats::{LogError, LogOptions, LogReport, LogScan, WholeLog};
+use tolman_geom::{Heading, Point, Pose};
+use tolman_maps::pose_graph::PoseGraph;
 use tolman_maps::scan_matching::{ScanMatching, ScanMatchingConfig, ScanStep};
 use tolman_robot::{MapView, Mapper, TimedPose, Trajectory};
 use tolman_systems::cpm::CpmOfSites;
@@ -22,7 +21,7 @@ const DOUBLED_M: f64 = 1.0;
 /// A robot's log: its scans, and the report on reading it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RobotLog {
-    /// Scans of the log, in the order of the file.
+    /// Scans of the log, in the order of time.
     pub scans: Vec<LogScan>,
     /// Report on reading the file.
     pub report: LogReport,
@@ -31,7 +30,7 @@ pub struct RobotLog {
 /// Result of mapping a log.
 #[derive(Clone, Debug, Default)]
 pub struct MappedLog {
-    /// Pose of each scan, in the order of the file.
+    /// Pose of each scan, in the order of the log.
     pub poses: Vec<Pose>,
     /// Number of places that were recognized again.
     pub closures: usize,
@@ -46,6 +45,8 @@ pub struct MappedLog {
     /// Visits to places: the keyframe in the middle of the place, and the place's id if the map
     /// knows it.
     pub visits: Vec<(usize, Option<u32>)>,
+    /// Keyframes with their odometry and closures; empty for a system without them.
+    pub graph: PoseGraph,
     /// Probability that the map is right, by the mapper's own estimate; `None` if it gives none.
     pub certainty: Option<f64>,
 }
@@ -62,66 +63,28 @@ pub struct FoundClosure {
 }
 
 impl RobotLog {
-    /// Reads a log of lines, plain or gzipped, or a ROS 2 bag.
+    /// Reads a log of lines or a bag of ROS, packed or not: see [`WholeLog`].
     ///
     /// # Errors
-    /// If there is no such file, it has no scan, or it is a bag and the feature `mcap` is off.
-    pub fn read(path: &Path) -> Result<Self, BoxError> {
-        Self::read_at_most(path, MOST_BYTES)
+    /// If there is no such file, or no scan of it can be used.
+    pub fn read(path: &Path) -> Result<Self, LogError> {
+        Self::read_as(path, &LogOptions::whole())
     }
 
-    /// Reads a log as [`read`](Self::read), with `most` bytes of text or messages.
+    /// Reads a log as [`read`](Self::read), as the options tell.
     ///
     /// # Errors
-    /// As [`read`](Self::read), and if there is more.
-    pub fn read_at_most(path: &Path, most: u64) -> Result<Self, BoxError> {
-        if is_mcap(path) {
-            return Self::read_bag(path, most);
-        }
-        let mut reader = LogReader::open(path, most)?;
-        let log = Self::of(&mut reader);
-        let report = reader.report().clone();
-        refuse_too_large(&report, path, most)?;
-        if log.is_empty() {
-            let told = report.sentences().join("; ");
-            let path = path.display();
-            return Err(format!("{path}: no scan can be used; give a log of CARMEN with FLASER or ROBOTLASER1 lines, or one of Wean Hall ({told})").into());
-        }
-        Ok(Self { scans: log, report })
+    /// As [`read`](Self::read).
+    pub fn read_as(path: &Path, options: &LogOptions) -> Result<Self, LogError> {
+        WholeLog::open(path, options).map(Self::from)
     }
 
-    #[cfg(feature = "mcap")]
-    fn read_bag(path: &Path, most: u64) -> Result<Self, BoxError> {
-        let RosBag { entries, report } = RosBag::read(path, most)?;
-        refuse_too_large(&report, path, most)?;
-        let scans = Self::of(entries.into_iter());
-        if scans.is_empty() {
-            let told = report.sentences().join("; ");
-            return Err(format!("{}: no scan can be used ({told})", path.display()).into());
-        }
-        Ok(Self { scans, report })
-    }
-
-    #[cfg(not(feature = "mcap"))]
-    fn read_bag(path: &Path, _: u64) -> Result<Self, BoxError> {
-        let path = path.display();
-        Err(format!("{path} is a bag of ROS 2; build with `--features mcap` to read it").into())
-    }
-
-    /// Reads a log of lines in memory.
-    pub fn of_text(text: &[u8]) -> Self {
-        let mut reader = LogReader::new(text);
-        let scans = Self::of(&mut reader);
-        let report = reader.report().clone();
-        Self { scans, report }
-    }
-
-    fn of(entries: impl Iterator<Item = LogEntry>) -> Vec<LogScan> {
-        let scans = entries.filter_map(|entry| match entry {
-            LogEntry::Scan(scan) => Some(scan),
-            LogEntry::Odometry(_) => None,
-        });
-        scans.collect()
+    /// Reads a log in memory.
+    ///
+    /// # Errors
+    /// In words, if no scan of it can be used.
+    pub fn of_text(text: &[u8]) -> Result<Self, String> {
+        WholeLog::of_bytes(text.to_vec(), &LogOptions::whole()).map(Self::from)
     }
 
     /// Returns the odometry, one pose per scan.
@@ -142,7 +105,8 @@ impl RobotLog {
     }
 
     /// Estimates the robot's trajectory by `system`, from the poses of `odometry`, and returns it.
-    /// Calls `see` after each scan with the number of scans so far.
+    /// If these never move, the scans alone tell how the robot moved. Calls `see` after each scan
+    /// with the number of scans so far.
     ///
     /// # Errors
     /// If a scan is invalid.
@@ -152,6 +116,7 @@ impl RobotLog {
         odometry: &[Pose],
         see: impl FnMut(usize),
     ) -> Result<MappedLog, BoxError> {
+        let odometry = &*self.moved(odometry)?;
         let corridors = PlacesConfig::indoor().corridor_width;
         let mut config = ScanMatchingConfig::indoor();
         let mut mapper = match system {
@@ -185,6 +150,70 @@ impl RobotLog {
         self.show(&mut mapper, odometry, see)?;
         mapper.finish()?;
         Ok(MappedLog::of(&mapper))
+    }
+
+    /// Maps the log by scan matching, with the closures of `audited` in place of those that it
+    /// finds.
+    ///
+    /// # Errors
+    /// If a scan is invalid, or the graph is not of this log's keyframes.
+    pub fn map_with_closures(
+        &self,
+        audited: &PoseGraph,
+        odometry: &[Pose],
+        see: impl FnMut(usize),
+    ) -> Result<MappedLog, BoxError> {
+        let odometry = self.moved(odometry)?;
+        let mut mapper = ScanMatching::new(ScanMatchingConfig::indoor());
+        self.show(&mut mapper, &odometry, see)?;
+        let (poses, keyframes) = (audited.poses().len(), mapper.keyframes().len());
+        if poses != keyframes {
+            return Err(format!("the graph has {poses} poses, and the log {keyframes} keyframes; give the graph.g2o of this log, or what `tolman audit` made of it").into());
+        }
+        mapper.close_by(audited.closures().copied())?;
+        Ok(MappedLog::of(&mapper))
+    }
+
+    /// Returns how the robot moved: `odometry`, or what the scans tell if it never moves.
+    fn moved<'a>(&self, odometry: &'a [Pose]) -> Result<Cow<'a, [Pose]>, BoxError> {
+        let stands = odometry.iter().all(|pose| Some(pose) == odometry.first());
+        Ok(match stands {
+            true => Cow::Owned(self.found_from_scans()?),
+            false => Cow::Borrowed(odometry),
+        })
+    }
+
+    /// Returns how the robot moved, one pose per scan, by matching each scan to those before. The
+    /// robot is expected to go on as it went.
+    fn found_from_scans(&self) -> Result<Vec<Pose>, BoxError> {
+        let mut mapper = ScanMatching::new(ScanMatchingConfig::without_odometry());
+        let mut poses: Vec<Pose> = Vec::new();
+        let mut going = (Pose::IDENTITY, 0.0);
+        for (index, scan) in self.scans.iter().enumerate() {
+            let before = index
+                .checked_sub(1)
+                .and_then(|before| self.scans.get(before));
+            let duration = before.map_or(0.0, |before| scan.time - before.time);
+            let share = match going.1 > 0.0 {
+                true => (duration / going.1).clamp(0.0, 2.0),
+                false => 1.0,
+            };
+            let step: Pose = going.0;
+            mapper.observe(&ScanStep {
+                moved: Pose::new(
+                    Point::from(step.position.coords * share),
+                    Heading::from_radians(step.heading.radians() * share),
+                ),
+                scan: scan.scan.clone(),
+                robot_from_laser: scan.robot_from_laser,
+            })?;
+            let pose = mapper.pose().unwrap_or(Pose::IDENTITY);
+            going = poses
+                .last()
+                .map_or(going, |last| (last.between(pose), duration));
+            poses.push(pose);
+        }
+        Ok(poses)
     }
 
     /// Passes the places of the log to a mapper.
@@ -240,13 +269,10 @@ impl RobotLog {
     }
 }
 
-fn refuse_too_large(report: &LogReport, path: &Path, most: u64) -> Result<(), BoxError> {
-    match report.count(LogTrouble::TooLarge) {
-        0 => Ok(()),
-        _ => {
-            let (path, most) = (path.display(), most >> 20);
-            Err(format!("{path}: it holds more than {most} MiB; give it in parts, or raise this by --most-mib").into())
-        }
+impl From<WholeLog> for RobotLog {
+    fn from(log: WholeLog) -> Self {
+        let WholeLog { scans, report } = log;
+        Self { scans, report }
     }
 }
 
@@ -257,6 +283,7 @@ impl MappedLog {
             poses: matching.trajectory(),
             closures: matching.closures(),
             keyframes: matching.keyframes(),
+            graph: matching.graph().clone(),
             closed: closures
                 .map(|edge| FoundClosure {
                     earlier: edge.from as usize,

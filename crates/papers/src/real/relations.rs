@@ -125,7 +125,9 @@ pub(super) fn table() -> Table {
 impl Intel {
     fn log(&self) -> Result<&RobotLog, BoxError> {
         once(&self.log, || {
-            RobotLog::read(&file(LOG).ok_or("the log of the Intel lab is gone")?)
+            Ok(RobotLog::read(
+                &file(LOG).ok_or("the log of the Intel lab is gone")?,
+            )?)
         })
     }
 

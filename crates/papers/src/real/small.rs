@@ -59,7 +59,7 @@ impl Small {
         let mut text = Vec::new();
         GzDecoder::new(PACKED).read_to_end(&mut text)?;
         Ok(Self {
-            log: RobotLog::of_text(&text),
+            log: RobotLog::of_text(&text)?,
         })
     }
 

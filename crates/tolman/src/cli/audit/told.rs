@@ -9,6 +9,7 @@ use tolman_formats::G2o;
 use tolman_maps::audit::{
     AuditCertificateError, AuditCycle, AuditedClosure, ClosureVerdict, RefutedBy, UndecidedBecause,
 };
+use tolman_maps::pose_graph::PoseEdgeKind;
 use tolman_papers::real::GraphFile;
 
 use super::Audited;
@@ -44,6 +45,17 @@ impl Audited<'_> {
             self.file.file.poses.len(),
             rounded(self.config.sigma_scale),
         )?;
+        let edges = self.file.graph.edges().iter();
+        let steps = edges
+            .filter(|edge| edge.kind == PoseEdgeKind::Odometry)
+            .count();
+        let neighbours = self.file.file.poses.len().saturating_sub(1);
+        if 10 * steps < 9 * neighbours {
+            writeln!(
+                out,
+                "only {steps} of {neighbours} poses are joined to the one before, by id, and count as odometry; number the poses in the order they were driven"
+            )?;
+        }
         if let Some(told) = self.told_of_scale() {
             writeln!(out, "{told}")?;
         }
@@ -92,19 +104,18 @@ impl Audited<'_> {
     /// the factor in use is near enough.
     pub(super) fn told_of_scale(&self) -> Option<String> {
         let estimate = self.estimate?;
-        let by = rounded(estimate.estimate);
-        let (tail, cycles) = (estimate.tail.round(), estimate.cycles);
-        let off = estimate.estimate / self.config.sigma_scale;
-        if estimate.is_heavy() && off < 0.5 {
-            return Some(format!(
-                "{cycles} short cycles suggest standard deviations × {by}, but their tail is heavy (99th percentile {tail} times the median; a \
-                 Gaussian's is 4.8): smaller ones would refute right closures"
-            ));
-        }
+        let by = rounded(estimate.scale());
+        let cycles = estimate.cycles;
+        let off = estimate.scale() / self.config.sigma_scale;
+        let tail = match estimate.is_heavy() {
+            true => format!(
+                ", which bears their heavy tail (99th percentile {:.0} times the median; a Gaussian's is 4.8)",
+                estimate.tail
+            ),
+            false => String::new(),
+        };
         (!(0.5..=2.0).contains(&off)).then(|| {
-            format!(
-                "{cycles} short cycles suggest standard deviations × {by}: try --sigma-scale auto"
-            )
+            format!("{cycles} short cycles suggest standard deviations × {by}{tail}: try --sigma-scale auto")
         })
     }
 

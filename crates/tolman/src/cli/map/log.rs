@@ -7,9 +7,13 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use tolman_arena::registry::SystemEntry;
 use tolman_draw::{Figure, Page, PageTable};
-use tolman_formats::{dot, graphml, input, node_link_json, route_geojson, tum};
+use tolman_formats::{
+    G2o, G2oEdge, G2oPose, LogOptions, LogTimes, LogTopic, WholeLog, dot, graphml, input,
+    node_link_json, route_geojson, tum,
+};
 use tolman_geom::path_length;
-use tolman_papers::real::{LogMapper, MapPicture, MappedLog, RobotLog, ros_map};
+use tolman_maps::pose_graph::PoseGraph;
+use tolman_papers::real::{GraphFile, LogMapper, MapPicture, MappedLog, RobotLog, ros_map};
 use tolman_robot::MapLink;
 
 use crate::cli::bar::bar;
@@ -25,6 +29,7 @@ The folder gets:
   map.svg                         occupancy, the trajectory and the odometry
   trajectory.tum                  the estimated trajectory, as evo reads it: time x y z qx qy qz qw
   odometry.tum, noted.tum         the wheels' trajectory and the one noted in the log, in the same format
+  graph.g2o                       keyframes, odometry and closures, for `tolman audit`
   map.yaml, map.pgm               the map for map_server of ROS, and for `tolman run --world`
 A map of places adds:
   places.graphml, places.dot
@@ -32,27 +37,68 @@ A map of places adds:
   places.geojson                  for nav2_route
 
 Examples:
+  tolman map --list logs/office.clf.gz
   tolman map --log logs/office.clf.gz --out office
   tolman map --log logs/office.clf.gz --system matching --out office-open
+  tolman audit office/graph.g2o --out office-audit
+  tolman map --log logs/office.clf.gz --closures office-audit/cleaned.g2o --out office-again
   tolman score --trajectory office/trajectory.tum --truth office/noted.tum";
 
 /// Settings for mapping a log.
 #[derive(clap::Args)]
 #[group(skip)]
 pub(super) struct Arguments {
-    /// Log file: lines of CARMEN or of Wean Hall, plain or gzipped, or a ROS 2 bag (MCAP; feature
-    /// `mcap`)
-    #[arg(long, value_name = "FILE", required = true)]
+    /// Log: lines of CARMEN or of Wean Hall, or a bag of ROS 1 or 2 (.bag, .mcap, .db3, or a
+    /// folder); plain or packed by gzip, bzip2, xz or zstd
+    #[arg(long, value_name = "FILE", required_unless_present = "list")]
     log: Option<PathBuf>,
+    /// List the topics of a bag, or the kinds of lines of a log, instead of mapping it
+    #[arg(long, value_name = "FILE", exclusive = true)]
+    list: Option<PathBuf>,
+    /// Topic of a bag's laser; repeat it to use several lasers [default: the one that saw most]
+    #[arg(long, value_name = "TOPIC")]
+    scan_topic: Vec<String>,
+    /// Topic of a bag's odometry, or `/tf` [default: the one that moves]
+    #[arg(long, value_name = "TOPIC")]
+    odom_topic: Option<String>,
+    /// Times of a bag's messages: those in their headers, or of their receipt [default: header, if
+    /// they can be used]
+    #[arg(long, value_enum, value_name = "WHICH")]
+    times: Option<Times>,
     /// Maximum size of the log, unpacked
     #[arg(long, value_name = "MIB", default_value_t = input::MOST_BYTES >> 20, value_parser = clap::value_parser!(u64).range(1..=1 << 20))]
     most_mib: u64,
     /// System that estimates the trajectory; `tolman systems` lists those that map logs
     #[arg(long, value_name = "NAME", default_value = "scan-matching")]
     system: String,
+    /// Use the closures of this graph instead of searching for them: the graph.g2o of an earlier
+    /// run, as `tolman audit` cleaned it
+    #[arg(long, value_name = "FILE")]
+    closures: Option<PathBuf>,
     /// Folder for the results; made if it does not exist
-    #[arg(long, value_name = "DIR", required = true, value_parser = outputs::folder(FILES))]
+    #[arg(long, value_name = "DIR", required_unless_present = "list", value_parser = outputs::folder(FILES))]
     out: Option<Output>,
+}
+
+/// Times of a bag's messages.
+#[derive(Clone, Copy, clap::ValueEnum)]
+enum Times {
+    Header,
+    Receipt,
+}
+
+impl Arguments {
+    fn options(&self) -> LogOptions {
+        let mut options = LogOptions::whole();
+        options.most = self.most_mib << 20;
+        options.scan_topics.clone_from(&self.scan_topic);
+        options.odom_topic.clone_from(&self.odom_topic);
+        options.times = self.times.map(|times| match times {
+            Times::Header => LogTimes::Header,
+            Times::Receipt => LogTimes::Receipt,
+        });
+        options
+    }
 }
 
 /// Names of the files in the folder.
@@ -60,6 +106,7 @@ const FILES: &[&str] = &[
     "trajectory.tum",
     "odometry.tum",
     "noted.tum",
+    "graph.g2o",
     "places.graphml",
     "places.json",
     "places.geojson",
@@ -72,24 +119,26 @@ const FILES: &[&str] = &[
 ];
 
 pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -> Result {
+    if let Some(path) = &arguments.list {
+        return list(path, arguments.most_mib << 20, out);
+    }
     let Arguments {
         log: Some(path),
         out: Some(folder),
         system,
-        most_mib,
+        ..
     } = arguments
     else {
         return Err(Failure::BadInput(anyhow!("give --log FILE and --out DIR")));
     };
     let mapper = mapper(app, system)?;
-    let log = RobotLog::read_at_most(path, most_mib << 20)
-        .unboxed()
-        .map_err(|error| explain(path, error))
+    let log = RobotLog::read_as(path, &arguments.options())
+        .map_err(|error| explain(path, error.into()))
         .or_bad_input()?;
     for sentence in log.report.sentences() {
         writeln!(out, "{sentence}")?;
     }
-    let found = found(&log, mapper)?;
+    let found = found(&log, mapper, arguments.closures.as_deref())?;
     let picture = MapPicture::of(&log, &found.poses);
     let told = sentences(&found);
     let mapped = Mapped {
@@ -108,6 +157,25 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
         None => Ok(()),
         Some(doubt) => Err(Failure::Failed(anyhow!("the map is doubtful: {doubt}"))),
     }
+}
+
+/// Prints what a log holds.
+fn list(path: &Path, most: u64, out: &mut dyn Write) -> Result {
+    let topics = WholeLog::list(path, most).or_bad_input()?;
+    for topic in topics {
+        let LogTopic {
+            name,
+            kind,
+            count,
+            rate_hz,
+            frame,
+            ..
+        } = &topic;
+        let rate = rate_hz.map_or_else(String::new, |rate| format!("{rate:.1} Hz"));
+        let line = format!("{name:<28} {kind:<34} {count:>8} ×  {rate:<10} {frame}");
+        writeln!(out, "{}", line.trim_end())?;
+    }
+    Ok(())
 }
 
 /// Returns the reason to doubt a map, by the mapper's own verdict or by the laser's readings;
@@ -176,12 +244,20 @@ fn mapper(app: &App, name: &str) -> Result<LogMapper> {
 }
 
 /// Returns the trajectory estimated from the log. Shows a progress bar on the terminal.
-fn found(log: &RobotLog, mapper: LogMapper) -> Result<MappedLog> {
+fn found(log: &RobotLog, mapper: LogMapper, closures: Option<&Path>) -> Result<MappedLog> {
+    let audited = closures.map(GraphFile::read).transpose().or_bad_input()?;
+    if audited.is_some() && mapper != LogMapper::ScanMatching {
+        return Err(Failure::BadInput(anyhow!(
+            "--closures goes with the system scan-matching alone; leave one of them out"
+        )));
+    }
     let template = "{bar:30} scan {pos} of {len}, {eta} to go";
     let progress = bar(u32::try_from(log.scans.len()).unwrap_or(u32::MAX), template);
-    let found = log.map(mapper, &log.odometry(), |scans| {
-        progress.set_position(scans as u64);
-    });
+    let see = |scans| progress.set_position(scans as u64);
+    let found = match &audited {
+        Some(audited) => log.map_with_closures(&audited.graph, &log.odometry(), see),
+        None => log.map(mapper, &log.odometry(), see),
+    };
     progress.finish_and_clear();
     found.unboxed().or_bad_input()
 }
@@ -208,6 +284,9 @@ impl Mapped<'_> {
             ("noted.tum", &noted),
         ] {
             write(name, tum(&log.trajectory(poses)).as_bytes())?;
+        }
+        if !found.graph.edges().is_empty() {
+            write("graph.g2o", graph(&found.graph).text().as_bytes())?;
         }
         if !found.places.places.is_empty() {
             write("places.graphml", graphml(&found.places).as_bytes())?;
@@ -256,6 +335,28 @@ impl Mapped<'_> {
         );
         page = page.table(&rows);
         page.text(format!("Made by {}", called::command())).html()
+    }
+}
+
+/// Returns a pose graph as the contents of a file.
+fn graph(graph: &PoseGraph) -> G2o {
+    let poses = (0..).zip(graph.poses());
+    let edges = graph.edges().iter();
+    G2o {
+        poses: poses
+            .map(|(id, pose)| G2oPose { id, pose: *pose })
+            .collect(),
+        edges: edges
+            .map(|edge| G2oEdge {
+                from: edge.from.into(),
+                to: edge.to.into(),
+                measured: edge.measured,
+                information: edge.information,
+                line: 0,
+            })
+            .collect(),
+        fixed: Vec::new(),
+        left_out: Vec::new(),
     }
 }
 
