@@ -11,4 +11,4 @@ mod spatial;
 
 pub use aligned::AlignedScore;
 pub use relations::RelationScore;
-pub use spatial::{ErrorSummary, PosePair, SpatialScore, TrajectoryAlignment};
+pub use spatial::{ErrorStatistics, PosePair, SpatialScore, TrajectoryAlignment};

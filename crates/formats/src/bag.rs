@@ -1,5 +1,5 @@
-//! Bags of ROS: laser scans, odometry, and where the laser sits. They are MCAP or SQLite files of ROS
-//! 2, files of ROS 1, or folders of such files.
+//! Bags of ROS: laser scans, odometry, and where the laser sits. They are MCAP or SQLite files of
+//! ROS 2, files of ROS 1, or folders of such files.
 //!
 //! Read are `LaserScan`, `MultiEchoLaserScan`, `Odometry` and the transforms of `/tf` and
 //! `/tf_static`. All else is counted.

@@ -1,5 +1,5 @@
-//! Pose graphs in the plane as g2o, GTSAM, TORO and RTAB-Map write them. The lines are `VERTEX_SE2 id
-//! x y θ`, `EDGE_SE2 from to x y θ …` and `FIX id`. An edge ends with the upper triangle of its
+//! Pose graphs in the plane as g2o, GTSAM, TORO and RTAB-Map write them. The lines are `VERTEX_SE2
+//! id x y θ`, `EDGE_SE2 from to x y θ …` and `FIX id`. An edge ends with the upper triangle of its
 //! information matrix, row by row. TORO's `VERTEX2` and `EDGE2` are the same with the matrix in
 //! another order. `VERTEX_SE3:QUAT` and `EDGE_SE3:QUAT` are read if they lie in the plane.
 //!

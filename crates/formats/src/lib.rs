@@ -5,9 +5,10 @@
 //! two files by themselves. [`G2o`] is a pose graph in the plane, read and written.
 //!
 //! [`WholeLog`] reads logs of robots and bags of ROS, and [`LogReader`] a log line by line; a
-//! [`LogReport`] lists the parts of a log that cannot be used. [`ReadTrajectory`] and [`tum`] read and write trajectories, and [`ReadRelations`] reads
-//! relative poses. [`UtiasRobot`], [`TucDrive`] and [`SonarTable`] are published data sets.
-//! [`dot`], [`graphml`], [`node_link_json`] and [`route_geojson`] write maps of places.
+//! [`LogReport`] lists the parts of a log that cannot be used. [`ReadTrajectory`] and [`tum`] read
+//! and write trajectories, and [`ReadRelations`] reads relative poses. [`UtiasRobot`], [`TucDrive`]
+//! and [`SonarTable`] are published data sets. [`dot`], [`graphml`], [`node_link_json`] and
+//! [`route_geojson`] write maps of places.
 //!
 //! ```
 //! use tolman_formats::{GreyMap, MapCell, RosMap, RosMapHeader};

@@ -111,8 +111,8 @@ impl RosMap {
     }
 
     /// Returns the occupancy grid of a `header` and its `picture`, whose first row is the
-    /// northernmost. A turned picture is drawn again, turned, each cell as the picture has it at the
-    /// cell's middle. O(pixels).
+    /// northernmost. A turned picture is drawn again, turned, each cell as the picture has it at
+    /// the cell's middle. O(pixels).
     #[must_use]
     pub fn of(header: &RosMapHeader, picture: &GreyMap) -> Self {
         let most = f64::from(picture.most);

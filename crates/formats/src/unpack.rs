@@ -1,5 +1,5 @@
-//! Files packed by gzip, bzip2, xz or zstd, recognized by their first bytes, and the packed parts of
-//! bags. All codecs are Rust, so no C compiler is needed.
+//! Files packed by gzip, bzip2, xz or zstd, recognized by their first bytes, and the packed parts
+//! of bags. All codecs are Rust, so no C compiler is needed.
 
 mod xz;
 mod zstd;

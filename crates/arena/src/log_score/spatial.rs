@@ -23,10 +23,10 @@ pub enum TrajectoryAlignment {
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpatialScore {
     /// Distances of positions from the true ones, m.
-    pub absolute: ErrorSummary,
+    pub absolute: ErrorStatistics,
     /// Lengths of the errors of moves over the given number of poses, m; without errors if there
     /// are too few poses.
-    pub relative: ErrorSummary,
+    pub relative: ErrorStatistics,
     /// Root of the mean square of the turns of these moves' errors, rad.
     pub relative_turn_rms: f64,
     /// Scale of the alignment.
@@ -35,7 +35,7 @@ pub struct SpatialScore {
 
 /// A list of errors in short.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ErrorSummary {
+pub struct ErrorStatistics {
     /// Number of errors.
     pub count: usize,
     /// Root of the mean square.
@@ -75,7 +75,7 @@ impl SpatialScore {
         let off = pairs.iter().map(|(found, truth)| {
             (moved(found).translation.vector - truth.translation.vector).norm()
         });
-        let absolute = ErrorSummary::of(off.collect());
+        let absolute = ErrorStatistics::of(off.collect());
         let every: Vec<&PosePair> = pairs.iter().step_by(step.max(1)).collect();
         let errors = every.windows(2).map(|two| {
             let [found, truth] = [
@@ -89,8 +89,8 @@ impl SpatialScore {
         let lengths = errors.iter().map(|error| error.translation.vector.norm());
         Some(Self {
             absolute,
-            relative: ErrorSummary::of(lengths.collect()),
-            relative_turn_rms: ErrorSummary::of(turns.collect()).rms,
+            relative: ErrorStatistics::of(lengths.collect()),
+            relative_turn_rms: ErrorStatistics::of(turns.collect()).rms,
             scale,
         })
     }
@@ -170,7 +170,7 @@ fn umeyama(pairs: &[PosePair], is_scaled: bool) -> (Isometry3<f64>, f64) {
     (Isometry3::from_parts(shift.into(), turned), scale)
 }
 
-impl ErrorSummary {
+impl ErrorStatistics {
     fn of(mut errors: Vec<f64>) -> Self {
         errors.sort_by(f64::total_cmp);
         let (Some(least), Some(largest)) = (errors.first(), errors.last()) else {

@@ -295,8 +295,8 @@ struct Placing<'a> {
 }
 
 impl Placing<'_> {
-    /// Returns a scan with the robot's pose by odometry at that time. `largest` is the largest range
-    /// of its laser.
+    /// Returns a scan with the robot's pose by odometry at that time. `largest` is the largest
+    /// range of its laser.
     fn placed(&mut self, topic: &str, kept: &Kept<LaserScan>, largest: f64) -> Option<LogScan> {
         let Kept {
             number,
@@ -366,8 +366,8 @@ impl Placing<'_> {
     }
 }
 
-/// Returns the scan of a message and the number of its ranges that say nothing; `None` if its angles
-/// are invalid. A laser that hangs upside down sees its beams mirrored.
+/// Returns the scan of a message and the number of its ranges that say nothing; `None` if its
+/// angles are invalid. A laser that hangs upside down sees its beams mirrored.
 fn scan(message: &LaserScan, max_range: f64, is_mirrored: bool) -> Option<(Scan, usize)> {
     let side = if is_mirrored { -1.0 } else { 1.0 };
     let [first, spacing] =

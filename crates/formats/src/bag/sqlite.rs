@@ -1,5 +1,5 @@
-//! Bags in SQLite files, of which only the tables `topics` and `messages` are read. Source: Database
-//! File Format, sqlite.org.
+//! Bags in SQLite files, of which only the tables `topics` and `messages` are read. Source:
+//! Database File Format, sqlite.org.
 
 use alloc::collections::BTreeMap;
 use std::io::{self, Read, Seek, SeekFrom};

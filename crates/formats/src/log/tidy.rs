@@ -199,12 +199,13 @@ fn nothing_seen(scans: &mut [LogScan], report: &mut LogReport) {
     };
     let all: usize = scans.iter().map(|scan| scan.scan.ranges.len()).sum();
     let greatest = scans.iter().flat_map(hits).fold(0.0, f64::max);
-    let [mut heap, mut below] = [0, 0];
+    let [mut heap, mut below, mut met] = [0, 0, 0];
     for range in scans.iter().flat_map(hits) {
+        met += 1;
         heap += usize::from(range >= greatest);
         below += usize::from((greatest - BELOW..greatest).contains(&range));
     }
-    if (heap as f64) < OFTEN * all as f64 || heap < HEAP * (below + 1) {
+    if (heap as f64) < OFTEN * all as f64 || heap < HEAP * (below + 1) || heap == met {
         return;
     }
     report.notes.push(format!(

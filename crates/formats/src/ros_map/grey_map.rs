@@ -5,8 +5,8 @@ use thiserror::Error;
 
 use crate::input::MOST_BYTES;
 
-/// A grey picture in the portable grey map format (PGM), binary (`P5`) or plain (`P2`), or a PNG, of
-/// which each pixel has the mean of its colours.
+/// A grey picture in the portable grey map format (PGM), binary (`P5`) or plain (`P2`), or a PNG,
+/// of which each pixel has the mean of its colours.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct GreyMap {
     /// Number of columns.

@@ -62,8 +62,8 @@ pub enum RosMapHeaderError {
 }
 
 impl RosMapHeader {
-    /// Reads the YAML that map_server and map_saver write: flat keys, in lines or in braces, and lists
-    /// in brackets or in lines with a dash. Keys that are not of map_server are ignored.
+    /// Reads the YAML that map_server and map_saver write: flat keys, in lines or in braces, and
+    /// lists in brackets or in lines with a dash. Keys that are not of map_server are ignored.
     ///
     /// # Errors
     /// [`RosMapHeaderError`] with the line at fault.

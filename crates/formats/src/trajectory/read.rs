@@ -10,8 +10,8 @@ use tolman_robot::{TimedPose, Trajectory};
 use crate::input::{self, MOST_BYTES, SourceError};
 use crate::log::open;
 
-/// A trajectory in space, read from a file. Every line has to be right: a score of half a file means
-/// nothing.
+/// A trajectory in space, read from a file. Every line has to be right: a score of half a file
+/// means nothing.
 ///
 /// | format | a line |
 /// | --- | --- |

@@ -7,7 +7,7 @@ use anyhow::{Context, anyhow};
 use clap::ArgGroup;
 use serde_json::{Value, json};
 use tolman_arena::log_score::{
-    ErrorSummary, PosePair, RelationScore, SpatialScore, TrajectoryAlignment,
+    ErrorStatistics, PosePair, RelationScore, SpatialScore, TrajectoryAlignment,
 };
 use tolman_formats::{ReadRelations, ReadTrajectory, SpacePose};
 
@@ -269,7 +269,7 @@ const GAP: f64 = 10.0;
 fn tell(arguments: &Arguments, scores: &[(&Path, Compared)], out: &mut dyn Write) -> Result {
     let json = |compared: &Compared| -> Value {
         let Compared { score, of, gap, .. } = compared;
-        let summary = |errors: &ErrorSummary| {
+        let summary = |errors: &ErrorStatistics| {
             json!({
                 "rms_m": errors.rms, "mean_m": errors.mean, "median_m": errors.median, "sd_m": errors.sd,
                 "least_m": errors.least, "largest_m": errors.largest, "count": errors.count,
@@ -299,7 +299,7 @@ fn tell(arguments: &Arguments, scores: &[(&Path, Compared)], out: &mut dyn Write
         "poses", "rms, m", "mean, m", "max, m", "relative, m"
     )?;
     for (file, Compared { score, of, .. }) in scores {
-        let ErrorSummary {
+        let ErrorStatistics {
             count,
             rms,
             mean,
