@@ -1,10 +1,9 @@
 use alloc::collections::BinaryHeap;
-use alloc::vec;
 use alloc::vec::Vec;
 use core::cmp::Reverse;
 
 use crate::Graph;
-use crate::path::trace_back;
+use crate::reached::Reached;
 
 /// A path to a goal, and the effort of finding it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -41,11 +40,10 @@ pub fn a_star(
     is_goal: impl Fn(u32) -> bool,
     heuristic: impl Fn(u32) -> u32,
 ) -> Option<Found> {
-    let searched = search(graph, [source], is_goal, |node, cost| {
+    search(graph, source, is_goal, |node, cost| {
         let guess = heuristic(node);
         (cost.saturating_add(guess), guess)
-    });
-    searched.found(source)
+    })
 }
 
 /// Returns some path from `source` to a goal, or `None` if no way leads to one. Greedy best-first
@@ -68,71 +66,42 @@ pub fn best_first(
     is_goal: impl Fn(u32) -> bool,
     heuristic: impl Fn(u32) -> u32,
 ) -> Option<Found> {
-    search(graph, [source], is_goal, |node, _| (heuristic(node), 0)).found(source)
-}
-
-/// Result of a search.
-pub(crate) struct Searched {
-    /// Least cost so far of each node, and the node before it on that way. A source comes from
-    /// itself.
-    pub(crate) reached: Vec<Option<(u32, u32)>>,
-    /// First goal that was expanded, and its cost.
-    goal: Option<(u32, u32)>,
-    expanded: u32,
+    search(graph, source, is_goal, |node, _| (heuristic(node), 0))
 }
 
 /// Expands the node of least `priority`, which is given a node and the cost of the way to it, until
 /// it is a goal.
-pub(crate) fn search(
+fn search(
     graph: &impl Graph,
-    sources: impl IntoIterator<Item = u32>,
+    source: u32,
     is_goal: impl Fn(u32) -> bool,
     priority: impl Fn(u32, u32) -> (u32, u32),
-) -> Searched {
-    let mut searched = Searched {
-        reached: vec![None; graph.node_count()],
-        goal: None,
-        expanded: 0,
-    };
-    let reached = &mut searched.reached;
+) -> Option<Found> {
+    let mut reached = Reached::new(graph.node_count());
+    let mut expanded = 0;
     let mut frontier = BinaryHeap::new();
-    for source in sources {
-        if let Some(slot) = reached.get_mut(source as usize) {
-            *slot = Some((0, source));
-            frontier.push(Reverse((priority(source, 0), source, 0)));
-        }
+    if reached.improve(source, 0, source) {
+        frontier.push(Reverse((priority(source, 0), source, 0)));
     }
     while let Some(Reverse((_, node, cost))) = frontier.pop() {
-        if reached[node as usize].is_some_and(|(best, _)| best < cost) {
+        if reached.get(node).is_some_and(|(best, _)| best < cost) {
             continue; // A cheaper way was found after this entry was queued.
         }
         if is_goal(node) {
-            searched.goal = Some((node, cost));
-            break;
+            return Some(Found {
+                path: reached.trace_back(source, node),
+                cost,
+                expanded,
+            });
         }
-        searched.expanded += 1;
+        expanded += 1;
         graph.for_each_arc(node, |head, step| {
-            let (Some(cost), Some(slot)) = (cost.checked_add(step), reached.get_mut(head as usize))
-            else {
-                return;
-            };
-            if slot.is_none_or(|(best, _)| cost < best) {
-                *slot = Some((cost, node));
+            if let Some(cost) = cost.checked_add(step)
+                && reached.improve(head, cost, node)
+            {
                 frontier.push(Reverse((priority(head, cost), head, cost)));
             }
         });
     }
-    searched
-}
-
-impl Searched {
-    /// Returns the way from `source` to the goal.
-    fn found(self, source: u32) -> Option<Found> {
-        let (goal, cost) = self.goal?;
-        Some(Found {
-            path: trace_back(source, goal, &self.reached),
-            cost,
-            expanded: self.expanded,
-        })
-    }
+    None
 }

@@ -4,8 +4,9 @@
 //! nothing of maps, mazes or robots:
 //!
 //! - [`steps_from`] counts arcs (breadth-first), and [`costs_from`] sums their costs (Dijkstra).
-//! - [`path_to`] lists the nodes of a shortest path, and [`a_star`] those of a cheapest one by an
-//!   admissible heuristic. [`best_first`] lists those of any path, by the heuristic alone.
+//! - [`path_to`] lists the nodes of a shortest path. [`path_between`] lists those of a cheapest one
+//!   from both ends, and [`a_star`] by an admissible heuristic. [`best_first`] lists those of any
+//!   path, by the heuristic alone.
 //! - [`expected_costs`] plans where actions may fail. [`compressed`] removes detours from a path's
 //!   actions.
 //!
@@ -62,7 +63,13 @@ pub mod moves;
 mod passages;
 #[cfg(feature = "alloc")]
 mod path;
+#[cfg(feature = "alloc")]
+mod path_between;
 mod pose_set;
+#[cfg(feature = "alloc")]
+mod reached;
+#[cfg(feature = "alloc")]
+mod ring;
 pub mod speed_run;
 mod step_map;
 mod too_large;
@@ -81,4 +88,5 @@ pub use {
     dijkstra::costs_from,
     expected_costs::{Decisions, expected_costs},
     path::path_to,
+    path_between::path_between,
 };

@@ -3,12 +3,16 @@
 use petgraph::algo::dijkstra;
 use petgraph::graph::{DiGraph, NodeIndex};
 use proptest::prelude::*;
-use tolman_planners::{Arcs, Graph, a_star, best_first, costs_from, path_to, steps_from};
+use tolman_planners::{
+    Arcs, Graph, a_star, best_first, costs_from, path_between, path_to, steps_from,
+};
 
 const NODES: u32 = 24;
 
 fn arcs() -> impl Strategy<Value = Vec<(u32, u32, u32)>> {
-    prop::collection::vec((0..NODES, 0..NODES, 0..50_u32), 0..80)
+    // Cheap arcs, and some so dear that they lie beyond a round of buckets.
+    let cost = prop_oneof![0..50_u32, 0..1500_u32, 1000..1_000_000_u32];
+    prop::collection::vec((0..NODES, 0..NODES, cost), 0..80)
 }
 
 fn theirs(list: &[(u32, u32, u32)], source: u32, cost: impl Fn(u32) -> u32) -> Vec<Option<u32>> {
@@ -48,9 +52,12 @@ proptest! {
         prop_assert_eq!(found.as_ref().map(|found| found.cost), costs[source as usize]);
         let blind = a_star(&graph, source, |node| node == goal, |_| 0);
         prop_assert_eq!(blind.map(|found| found.cost), costs[source as usize]);
+        let between = path_between(&graph, &graph.reversed(), source, goal);
+        let between = between.map(|(path, cost)| tolman_planners::Found { path, cost, expanded: 0 });
+        prop_assert_eq!(between.as_ref().map(|found| found.cost), costs[source as usize]);
         let greedy = best_first(&graph, source, |node| node == goal, guess);
         prop_assert_eq!(greedy.is_some(), found.is_some());
-        for found in found.into_iter().chain(greedy) {
+        for found in found.into_iter().chain(greedy).chain(between) {
             prop_assert_eq!((found.path[0], found.path[found.path.len() - 1]), (source, goal));
             prop_assert!(found.cost >= costs[source as usize].unwrap());
             let mut cost = 0;
