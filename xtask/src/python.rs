@@ -1,5 +1,5 @@
-//! `cargo xtask python`: builds, installs and tests the Python module in an environment of its own,
-//! `target/python`.
+//! `cargo xtask python`: builds, installs and tests the Python modules in environments of their
+//! own, `target/python` and `target/python-old`.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -10,21 +10,39 @@ use anyhow::{Context, Result, bail};
 use crate::ci::Outcome;
 use crate::workspace::{self, entries, succeed, target_folder};
 
-/// Packages to build and test the module with.
-const PACKAGES: &[&str] = &["maturin>=1.9,<2", "pytest", "mypy", "networkx", "gymnasium"];
+/// Packages to build and test the modules with, each in its newest release. A kernel and its client
+/// run the notebooks.
+const PACKAGES: &[&str] = &[
+    "maturin>=1.9,<2",
+    "pytest",
+    "scikit-learn",
+    "networkx",
+    "gymnasium",
+    "pandas",
+    "polars",
+    "pyarrow",
+    "matplotlib",
+    "nbclient",
+    "ipykernel",
+    "mypy",
+    "pyright[nodejs]",
+];
 
-/// MDP 3.6 uses names that later versions of numpy dropped, and this one has wheels for Python 3.9
-/// to 3.11.
-const WITH_MDP: &[&str] = &["MDP==3.6", "numpy==1.23.5", "setuptools<60"];
+/// The oldest scikit-learn that is supported. MDP 3.6 uses names that later versions of numpy
+/// dropped, and this one has wheels for Python 3.9 to 3.11.
+const OLD: &[&str] = &[
+    "scikit-learn==1.3.2",
+    "MDP==3.6",
+    "numpy==1.23.5",
+    "setuptools<60",
+    "pytest",
+];
 
-/// Packages to use where those cannot be installed. The comparison with MDP is then skipped.
-const WITHOUT_MDP: &[&str] = &["numpy"];
+/// The packages, the smaller first; each needs those before it.
+const CRATES: [&str; 2] = ["crates/python-quantizers", "crates/python"];
 
-/// Folder of the crate.
-const CRATE: &str = "crates/python";
-
-/// Builds the wheel in release, installs it and runs its tests, if Python and its packages are
-/// available.
+/// Builds the wheels in release, installs them and runs their tests, if Python and its packages are
+/// available: all with the newest packages, those of the quantizers also with old ones.
 ///
 /// # Errors
 /// If a step fails for another reason than that they are missing.
@@ -33,26 +51,30 @@ pub(crate) fn check() -> Result<Outcome> {
         let why = "there is no Python 3.9 or newer with the module venv (PYTHON names another)";
         return Ok(Outcome::Missing(why.to_owned()));
     };
-    let folder = target_folder()?.join("python");
-    let environment = Environment { folder };
-    if !environment.program("maturin").exists() && !environment.make(&system)? {
+    let target = target_folder()?;
+    let environment = Environment {
+        folder: target.join("python"),
+    };
+    if !environment.program("maturin").exists() && !environment.make(&system, PACKAGES)? {
         let why = "the packages it is built and tested with cannot be installed";
         return Ok(Outcome::Missing(why.to_owned()));
     }
-    let wheel = environment.wheel()?;
-    let mut install = environment.python();
-    install.args([
-        "-m",
-        "pip",
-        "install",
-        "--quiet",
-        "--no-deps",
-        "--force-reinstall",
-    ]);
-    succeed(install.arg(wheel))?;
-    let mut tests = environment.python();
-    tests.args(["-m", "pytest", "-q", "-ra", CRATE]);
-    succeed(tests.current_dir(workspace::root()))?;
+    let mut wheels = Vec::new();
+    for folder in CRATES {
+        let wheel = environment.wheel(folder)?;
+        environment.test(folder, &wheel)?;
+        wheels.push(wheel);
+    }
+    let old = Environment {
+        folder: target.join("python-old"),
+    };
+    if !old.program("pytest").exists() && !old.make(&system, OLD)? {
+        eprintln!(
+            "MDP cannot be installed for this Python: neither it nor an old scikit-learn is tried"
+        );
+        return Ok(Outcome::Passed);
+    }
+    old.test(CRATES[0], &wheels[0])?;
     Ok(Outcome::Passed)
 }
 
@@ -89,17 +111,10 @@ impl Environment {
         Command::new(self.program("python"))
     }
 
-    /// Makes the environment again, and returns whether all required packages could be installed.
-    fn make(&self, system: &Path) -> Result<bool> {
+    /// Makes the environment again, and returns whether the packages could be installed.
+    fn make(&self, system: &Path, packages: &[&str]) -> Result<bool> {
         self.clear(system)?;
-        if self.install(WITH_MDP).is_err() {
-            eprintln!("MDP cannot be installed for this Python: it is not compared with");
-            if self.install(WITHOUT_MDP).is_err() {
-                return Ok(false);
-            }
-        }
-        // Last, because an environment with maturin counts as complete.
-        Ok(self.install(PACKAGES).is_ok())
+        Ok(self.install(packages).is_ok())
     }
 
     /// Makes the environment again, without packages.
@@ -120,16 +135,27 @@ impl Environment {
         succeed(install.args(packages))
     }
 
-    /// Builds the wheel and returns its path.
-    fn wheel(&self) -> Result<PathBuf> {
-        let wheels = self.folder.join("wheels");
+    /// Installs a wheel and runs the tests of its crate.
+    fn test(&self, folder: &str, wheel: &Path) -> Result<()> {
+        let mut install = self.python();
+        install.args(["-m", "pip", "install", "--quiet", "--no-deps"]);
+        succeed(install.arg("--force-reinstall").arg(wheel))?;
+        let mut tests = self.python();
+        tests.args(["-m", "pytest", "-q", "-ra", folder]);
+        succeed(tests.current_dir(workspace::root()))
+    }
+
+    /// Builds the wheel of a crate and returns its path.
+    fn wheel(&self, folder: &str) -> Result<PathBuf> {
+        let root = workspace::root();
+        let wheels = self.folder.join("wheels").join(folder);
         if wheels.exists() {
             fs::remove_dir_all(&wheels).context("cannot remove the wheels built before")?;
         }
-        let manifest = workspace::root().join(CRATE).join("Cargo.toml");
         let mut build = Command::new(self.program("maturin"));
         build.args(["build", "--release", "--quiet", "--manifest-path"]);
-        build.arg(manifest).arg("--out").arg(&wheels);
+        build.arg(root.join(folder).join("Cargo.toml"));
+        build.arg("--out").arg(&wheels);
         build.arg("--interpreter").arg(self.program("python"));
         succeed(&mut build)?;
         match &entries(&wheels)?[..] {

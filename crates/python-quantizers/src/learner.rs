@@ -1,37 +1,79 @@
-//! Any quantizer, for 32-bit or 64-bit numbers, as the estimators of `python/tolman` use it.
+//! Any quantizer, for 32-bit or 64-bit numbers, as the estimators of `python/tolman_quantizers` use
+//! it.
 
 mod config;
 mod graph;
+mod nearest;
 
-use numpy::{PyArray1, PyArray2};
+use numpy::ndarray::ArrayView2;
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
-use tolman_quantizers::{Gng, Quantizer, Scalar, Soinn};
+use pyo3::types::{PyBytes, PyDict};
+use tolman_quantizers::{Gng, InputError, Quantizer, Scalar, Soinn};
 
 use self::config::{gng_config, named, soinn_config};
+use self::graph::Graph;
 use crate::errors::{refused, wrong};
 use crate::params::Params;
-use crate::rows::{check, each, rows};
+use crate::rows::{checked, few, flat, in_pieces, least_spread, row_of, rows};
+use crate::shared::Shared;
 
-/// A quantizer that can be saved.
+/// A quantizer that can be saved, and learns many inputs at once.
 trait Learner<S: Scalar>: Quantizer<S> + Send + Sync {
-    /// Returns the whole state of the quantizer as JSON.
-    fn saved(&self) -> serde_json::Result<String>;
+    /// Learns from inputs that lie in turn, up to `batch` at once. They are valid.
+    fn learn(&mut self, inputs: &[S], batch: usize) -> Result<(), InputError>;
+
+    /// Returns the whole state of the quantizer.
+    fn saved(&self) -> postcard::Result<Vec<u8>>;
 }
 
-impl<S: Scalar, Q> Learner<S> for Q
-where
-    Q: Quantizer<S> + serde::Serialize + Send + Sync,
-{
-    fn saved(&self) -> serde_json::Result<String> {
-        serde_json::to_string(self)
+impl<S: Scalar + serde::Serialize> Learner<S> for Gng<S> {
+    fn learn(&mut self, inputs: &[S], batch: usize) -> Result<(), InputError> {
+        match batch {
+            0 | 1 => each(self, inputs),
+            _ => self.observe_batch(inputs, batch),
+        }
+    }
+
+    fn saved(&self) -> postcard::Result<Vec<u8>> {
+        postcard::to_allocvec(self)
     }
 }
 
+impl<S: Scalar + serde::Serialize> Learner<S> for Soinn<S> {
+    fn learn(&mut self, inputs: &[S], _: usize) -> Result<(), InputError> {
+        each(self, inputs)
+    }
+
+    fn saved(&self) -> postcard::Result<Vec<u8>> {
+        postcard::to_allocvec(self)
+    }
+}
+
+fn each<S: Scalar>(quantizer: &mut impl Quantizer<S>, inputs: &[S]) -> Result<(), InputError> {
+    let dimension = quantizer.network().dimension();
+    for input in inputs.chunks_exact(dimension) {
+        quantizer.observe(input)?;
+    }
+    Ok(())
+}
+
+type Any<S> = Shared<Box<dyn Learner<S>>>;
+
 /// A quantizer of either type of numbers.
 enum AnyLearner {
-    Single(Box<dyn Learner<f32>>),
-    Double(Box<dyn Learner<f64>>),
+    Single(Any<f32>),
+    Double(Any<f64>),
+}
+
+impl AnyLearner {
+    fn single(learner: impl Learner<f32> + 'static) -> Self {
+        Self::Single(Shared::new(Box::new(learner)))
+    }
+
+    fn double(learner: impl Learner<f64> + 'static) -> Self {
+        Self::Double(Shared::new(Box::new(learner)))
+    }
 }
 
 /// Evaluates the same expression for either type of numbers.
@@ -44,21 +86,12 @@ macro_rules! either {
     };
 }
 
-/// A quantizer that learns from rows of arrays.
-#[pyclass(name = "Learner", module = "tolman._tolman")]
+/// A quantizer that learns from rows of arrays. Other threads may read it while one learns: they
+/// wait for a few rows, with Python's lock released.
+#[pyclass(name = "Learner", module = "tolman_quantizers._quantizers", frozen)]
 pub(crate) struct PyLearner {
-    kind: Kind,
     any: AnyLearner,
 }
-
-/// The kinds of quantizers.
-#[derive(Clone, Copy)]
-enum Kind {
-    Gng,
-    Soinn,
-}
-
-const KINDS: [(&str, Kind); 2] = [("gng", Kind::Gng), ("soinn", Kind::Soinn)];
 
 #[pymethods]
 impl PyLearner {
@@ -71,119 +104,155 @@ impl PyLearner {
         single: bool,
         params: &Bound<'_, PyDict>,
     ) -> PyResult<Self> {
-        let kind = kind_of(kind)?;
         let params = Params(params);
         let any = match kind {
-            Kind::Gng => {
+            "gng" => {
                 let config = gng_config(&params)?;
                 match single {
-                    true => {
-                        AnyLearner::Single(Box::new(Gng::new(dimension, config).map_err(named)?))
-                    }
-                    false => {
-                        AnyLearner::Double(Box::new(Gng::new(dimension, config).map_err(named)?))
-                    }
+                    true => AnyLearner::single(Gng::new(dimension, config).map_err(named)?),
+                    false => AnyLearner::double(Gng::new(dimension, config).map_err(named)?),
                 }
             }
-            Kind::Soinn => {
+            "soinn" => {
                 let config = soinn_config(&params)?;
                 match single {
-                    true => {
-                        AnyLearner::Single(Box::new(Soinn::new(dimension, config).map_err(named)?))
-                    }
-                    false => {
-                        AnyLearner::Double(Box::new(Soinn::new(dimension, config).map_err(named)?))
-                    }
+                    true => AnyLearner::single(Soinn::new(dimension, config).map_err(named)?),
+                    false => AnyLearner::double(Soinn::new(dimension, config).map_err(named)?),
                 }
             }
+            _ => return Err(unknown(kind)),
         };
-        Ok(Self { kind, any })
+        Ok(Self { any })
     }
 
     /// Returns the quantizer that [`Self::saved`] described.
     #[staticmethod]
-    fn resumed(kind: &str, single: bool, saved: &str) -> PyResult<Self> {
-        let kind = kind_of(kind)?;
+    fn resumed(kind: &str, single: bool, saved: &[u8]) -> PyResult<Self> {
         let any = match (kind, single) {
-            (Kind::Gng, true) => AnyLearner::Single(Box::new(read::<Gng<f32>>(saved)?)),
-            (Kind::Gng, false) => AnyLearner::Double(Box::new(read::<Gng<f64>>(saved)?)),
-            (Kind::Soinn, true) => AnyLearner::Single(Box::new(read::<Soinn<f32>>(saved)?)),
-            (Kind::Soinn, false) => AnyLearner::Double(Box::new(read::<Soinn<f64>>(saved)?)),
+            ("gng", true) => AnyLearner::single(read::<Gng<f32>>(saved)?),
+            ("gng", false) => AnyLearner::double(read::<Gng<f64>>(saved)?),
+            ("soinn", true) => AnyLearner::single(read::<Soinn<f32>>(saved)?),
+            ("soinn", false) => AnyLearner::double(read::<Soinn<f64>>(saved)?),
+            _ => return Err(unknown(kind)),
         };
-        Ok(Self { kind, any })
+        Ok(Self { any })
     }
 
-    /// Returns the whole state of the quantizer as JSON.
-    fn saved(&self) -> PyResult<String> {
-        let saved = either!(&self.any, learner => learner.saved());
-        saved.map_err(|error| refused("the quantizer cannot be saved", &error))
+    /// Returns the whole state of the quantizer.
+    fn saved<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
+        let saved = py.detach(|| either!(&self.any, learner => learner.read().saved()));
+        let saved = saved.map_err(|error| refused("the quantizer cannot be saved", &error))?;
+        Ok(PyBytes::new(py, &saved))
     }
 
-    /// Learns from each row in order. If one row is invalid, none is learned.
-    fn observe(&mut self, py: Python<'_>, x: &Bound<'_, PyAny>) -> PyResult<()> {
-        either!(&mut self.any, learner => {
+    /// Checks that all rows can be learned.
+    fn check(&self, py: Python<'_>, x: &Bound<'_, PyAny>) -> PyResult<()> {
+        either!(&self.any, learner => {
             let x = rows(x)?;
-            let x = x.as_array();
-            py.detach(|| {
-                check(learner.network(), &x)?;
-                each(&x, |input| learner.observe(input).map(drop))
-            })
+            check(py, learner, &x.as_array())
         })
     }
 
-    /// Returns, for each row, the number of the nearest unit in the order of [`Self::units`], and
-    /// its squared distance.
+    /// Learns from rows that were checked, in the order given, up to `batch` at once. Now and then
+    /// it calls `after` with the number of rows learned.
+    fn observe(
+        &self,
+        py: Python<'_>,
+        x: &Bound<'_, PyAny>,
+        order: Option<&Bound<'_, PyArray1<i64>>>,
+        batch: usize,
+        after: Option<&Bound<'_, PyAny>>,
+    ) -> PyResult<()> {
+        let order = order.map(PyArrayMethods::readonly);
+        let order = order.as_ref().map(|order| order.as_slice()).transpose();
+        let order = order.map_err(|error| refused("order", &error))?;
+        let after = |done: usize| match after {
+            Some(after) => after.call1((done,)).map(drop),
+            None => Ok(()),
+        };
+        either!(&self.any, learner => {
+            let x = rows(x)?;
+            let x = x.as_array();
+            let count = x.nrows();
+            if order.is_some_and(|order| order.iter().any(|row| *row < 0 || *row as usize >= count)) {
+                return Err(wrong(format!("order: it names a row beyond the {count} of X")));
+            }
+            let step = few(x.ncols()).max(batch);
+            let mut piece = Vec::new();
+            let work = |from: usize| {
+                let until = count.min(from + step);
+                let learned = match order {
+                    None => learner.write().learn(&flat(&x, from..until), batch),
+                    Some(order) => {
+                        piece.clear();
+                        for row in &order[from..until] {
+                            piece.extend_from_slice(&row_of(&x, *row as usize));
+                        }
+                        learner.write().learn(&piece, batch)
+                    }
+                };
+                learned.map_err(|error| refused("X", &error))?;
+                Ok(until)
+            };
+            in_pieces(py, count, work, after)
+        })
+    }
+
+    /// Returns, for each row, the number of the nearest unit in the order of the units, its squared
+    /// distance and its cluster.
     #[expect(clippy::type_complexity, reason = "a tuple is what Python takes apart")]
     fn nearest<'py>(
         &self,
         py: Python<'py>,
         x: &Bound<'py, PyAny>,
-    ) -> PyResult<(Bound<'py, PyArray1<i64>>, Bound<'py, PyArray1<f64>>)> {
-        let (numbers, squared) = either!(&self.any, learner => {
+    ) -> PyResult<(
+        Bound<'py, PyArray1<i64>>,
+        Bound<'py, PyArray1<f64>>,
+        Bound<'py, PyArray1<i64>>,
+    )> {
+        let (numbers, squared, clusters) = either!(&self.any, learner => {
             let x = rows(x)?;
             let x = x.as_array();
-            py.detach(|| graph::nearest(learner.network(), &x))?
+            py.detach(|| {
+                let learner = learner.read();
+                let network = learner.network();
+                let (numbers, squared) = nearest::nearest(network, &x)?;
+                let clusters = network.clusters();
+                let labels: Vec<i64> = clusters.iter().map(|(_, label)| i64::from(label)).collect();
+                let of_rows = numbers.iter().map(|number| labels[*number as usize]);
+                let of_rows: Vec<i64> = of_rows.collect();
+                PyResult::Ok((numbers, squared, of_rows))
+            })?
         });
         Ok((
             PyArray1::from_vec(py, numbers),
             PyArray1::from_vec(py, squared),
+            PyArray1::from_vec(py, clusters),
         ))
     }
 
-    /// Returns the prototypes, one row per unit.
-    fn units<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        Ok(match &self.any {
-            AnyLearner::Single(learner) => {
-                PyArray2::from_owned_array(py, graph::prototypes(learner.network())?).into_any()
-            }
-            AnyLearner::Double(learner) => {
-                PyArray2::from_owned_array(py, graph::prototypes(learner.network())?).into_any()
-            }
+    /// Returns the units and edges at one moment: the prototypes, one row per unit, by ascending
+    /// id; their ids, which are never used again; the two ends of each edge, as rows, and its age;
+    /// the cluster of each unit.
+    #[expect(clippy::type_complexity, reason = "a tuple is what Python takes apart")]
+    fn graph<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(
+        Bound<'py, PyAny>,
+        Bound<'py, PyArray1<i64>>,
+        Bound<'py, PyArray2<i64>>,
+        Bound<'py, PyArray1<i64>>,
+    )> {
+        either!(&self.any, learner => {
+            let graph = py.detach(|| Graph::of(learner.read().network()))?;
+            Ok((
+                PyArray2::from_owned_array(py, graph.units).into_any(),
+                PyArray1::from_vec(py, graph.ids),
+                PyArray2::from_owned_array(py, graph.edges),
+                PyArray1::from_vec(py, graph.clusters),
+            ))
         })
-    }
-
-    /// Returns the id of each unit. An id is never used again.
-    fn ids<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
-        let ids = either!(&self.any, learner => graph::ids(learner.network()));
-        PyArray1::from_vec(py, ids)
-    }
-
-    /// Returns the two ends of each edge and its age, one row per edge.
-    fn edges<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<i64>>> {
-        let edges = either!(&self.any, learner => graph::edges(learner.network()))?;
-        Ok(PyArray2::from_owned_array(py, edges))
-    }
-
-    /// Returns, for each unit, the number of its cluster.
-    fn clusters<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<i64>> {
-        let labels = either!(&self.any, learner => graph::clusters(learner.network()));
-        PyArray1::from_vec(py, labels)
-    }
-
-    /// Returns the number of features of an input.
-    #[getter]
-    fn dimension(&self) -> usize {
-        either!(&self.any, learner => learner.network().dimension())
     }
 
     /// Returns whether the numbers have 32 bits.
@@ -192,26 +261,45 @@ impl PyLearner {
         matches!(self.any, AnyLearner::Single(_))
     }
 
-    /// Returns the name of its kind.
-    #[getter]
-    fn kind(&self) -> &'static str {
-        match self.kind {
-            Kind::Gng => "gng",
-            Kind::Soinn => "soinn",
+    fn __len__(&self, py: Python<'_>) -> usize {
+        py.detach(|| either!(&self.any, learner => learner.read().network().len()))
+    }
+}
+
+/// Checks all rows before any is learned, so that either all of them are learned or none.
+///
+/// # Errors
+/// A `ValueError` that names the first invalid row, or tells that the rows lie so close together
+/// that the squares of their distances vanish.
+fn check<S: Scalar>(py: Python<'_>, learner: &Any<S>, x: &ArrayView2<'_, S>) -> PyResult<()> {
+    let step = few(x.ncols());
+    let (mut spread, mut begins) = (0.0_f64, false);
+    let work = |from: usize| {
+        let until = usize::min(from + step, x.nrows());
+        let learner = learner.read();
+        begins = learner.network().is_empty();
+        for number in from..until {
+            checked(learner.network(), &row_of(x, number), number)?;
+            for (value, first) in x.row(number).iter().zip(x.row(0)) {
+                spread = spread.max((value.to_f64() - first.to_f64()).abs());
+            }
         }
+        Ok(until)
+    };
+    in_pieces(py, x.nrows(), work, |_| Ok(()))?;
+    let least = least_spread::<S>();
+    if begins && spread > 0.0 && spread < least {
+        return Err(wrong(format!(
+            "X: its rows differ by at most {spread:e} in a feature, and below {least:e} the squares of distances vanish: scale X"
+        )));
     }
-
-    fn __len__(&self) -> usize {
-        either!(&self.any, learner => learner.network().len())
-    }
+    Ok(())
 }
 
-fn kind_of(name: &str) -> PyResult<Kind> {
-    let found = KINDS.iter().find(|(known, _)| *known == name);
-    let kind = found.map(|(_, kind)| *kind);
-    kind.ok_or_else(|| wrong(format!("kind is '{name}', which is not a quantizer")))
+fn unknown(kind: &str) -> PyErr {
+    wrong(format!("kind is '{kind}', which is not a quantizer"))
 }
 
-fn read<'a, Q: serde::Deserialize<'a>>(saved: &'a str) -> PyResult<Q> {
-    serde_json::from_str(saved).map_err(|error| refused("saved", &error))
+fn read<Q: serde::de::DeserializeOwned>(saved: &[u8]) -> PyResult<Q> {
+    postcard::from_bytes(saved).map_err(|error| refused("saved", &error))
 }

@@ -5,7 +5,7 @@ import time
 
 import numpy as np
 import pytest
-from tolman import GNG
+from tolman_quantizers import GNG
 
 mdp = pytest.importorskip("mdp", reason="MDP needs numpy 1.23 or older", exc_type=Exception)
 

@@ -6,8 +6,7 @@ import time
 
 import numpy as np
 import pytest
-import tolman
-from tolman import GNG, SOINN, EquilibriumGNG
+from tolman_quantizers import GNG, SOINN, EquilibriumGNG, NotFittedError
 
 ALL = [GNG(max_units=30, growth_period=20), EquilibriumGNG(0.05, growth_period=20), SOINN()]
 
@@ -55,7 +54,7 @@ class TestAll:
         for dtype in (np.float64, np.float32):
             typed = x.astype(dtype)
             through = copy_of(estimator).fit(typed)
-            resumed = pickle.loads(pickle.dumps(copy_of(estimator).fit(typed[:1000])))
+            resumed = pickle.loads(pickle.dumps(copy_of(estimator).partial_fit(typed[:1000])))
             resumed.partial_fit(typed[1000:])
             assert (through.units_ == resumed.units_).all() and through.units_.dtype == dtype
         assert pickle.loads(pickle.dumps(copy_of(estimator))).get_params() == estimator.get_params()
@@ -74,26 +73,26 @@ class TestAll:
         clone = type(estimator)(**params)
         assert all(clone.get_params()[name] is value for name, value in params.items())
         assert clone.set_params(max_age=7) is clone and clone.get_params()["max_age"] == 7
-        with pytest.raises(ValueError, match="widht is no parameter"):
+        with pytest.raises(ValueError, match="Invalid parameter 'widht'"):
             clone.set_params(widht=1)
         assert repr(clone).startswith(type(clone).__name__) and "max_age=7" in repr(clone)
 
     def test_nothing_is_known_before(self, estimator):
         for ask in (lambda e: e.units_, lambda e: e.predict([[0, 0]])):
-            with pytest.raises(tolman.NotFittedError, match="call fit"):
+            with pytest.raises(NotFittedError, match="call fit"):
                 ask(copy_of(estimator))
 
     @pytest.mark.parametrize(
         ("x", "said"),
         [
-            ([1.0, 2.0], "X has 1 dimensions"),
-            (np.zeros((2, 2, 2)), "X has 3 dimensions"),
-            ([["a", "b"]], "X has to be an array of numbers"),
-            ([[1j, 0]], "X has to be an array of numbers"),
-            ([[1.0], [1.0, 2.0]], "X has to be an array of numbers"),
-            (None, "X "),
-            (np.zeros((0, 2)), "X has no rows"),
-            (np.zeros((3, 0)), "X: the inputs have no features"),
+            ([1.0, 2.0], "Expected 2D array, got 1D array"),
+            (np.zeros((2, 2, 2)), "dim 3"),
+            ([["a", "b"]], "could not convert string to float"),
+            ([[1j, 0]], "Complex data not supported"),
+            ([[1.0], [1.0, 2.0]], "inhomogeneous|sequence"),
+            (None, "."),
+            (np.zeros((0, 2)), "0 sample"),
+            (np.zeros((3, 0)), "0 feature"),
             ([[0.0, 1.0], [0.0, float("nan")]], "X, row 1: feature 1 is NaN"),
             ([[0.0, 1e200]], "X, row 0: feature 1 is 1e200"),
         ],
@@ -108,7 +107,7 @@ class TestAll:
         units = fitted.units_
         with pytest.raises(ValueError, match="X, row 499"):
             fitted.partial_fit(np.vstack([x[:499], [[np.inf, 0.0]]]))
-        with pytest.raises(ValueError, match="X, row 0: the input has 3 features; give 2, as the network has"):
+        with pytest.raises(ValueError, match="X has 3 features, but .* is expecting 2 features"):
             fitted.predict(np.zeros((1, 3)))
         assert (fitted.units_ == units).all()
 
@@ -151,7 +150,7 @@ def test_clusters_are_what_hangs_together():
     graph = gng.to_networkx()
     assert networkx.number_connected_components(graph) == 2
     assert graph.number_of_edges() == len(gng.edges_)
-    assert graph.nodes[0]["position"] == tuple(gng.units_[0])
+    assert (graph.nodes[0]["x0"], graph.nodes[0]["x1"]) == tuple(gng.units_[0])
 
 
 def test_utility_moves_units_to_where_the_inputs_are():
@@ -168,7 +167,7 @@ def test_the_input_is_not_copied():
     import tracemalloc
 
     x = np.asfortranarray(points(500_000))
-    gng = GNG(max_units=2)
+    gng = GNG(max_units=2, compute_labels=False)
     tracemalloc.start()
     gng.fit(x)
     _, peak = tracemalloc.get_traced_memory()
@@ -190,3 +189,173 @@ def test_others_go_on_while_one_learns():
     assert len(gng.units_) == 2000
     # With the lock held, this thread would not have run once amid the learning.
     assert ticks > 10, (ticks, longest)
+
+
+class TestNeverSilentlyWrong:
+    @pytest.mark.parametrize("dtype", [np.float64, np.float32])
+    def test_tiny_scales_are_refused(self, dtype):
+        x = points(300)
+        for estimator in ALL:
+            tiny = (x * (1e-200 if dtype == np.float64 else 1e-25)).astype(dtype)
+            for learn in (copy_of(estimator).fit, copy_of(estimator).partial_fit):
+                with pytest.raises(ValueError, match="squares of distances vanish: scale X"):
+                    learn(tiny)
+        small = (x * (1e-120 if dtype == np.float64 else 1e-12)).astype(dtype)
+        assert len(GNG(max_units=10, growth_period=10).fit(small).units_) == 10
+
+    def test_masked_values_are_refused(self):
+        x = np.ma.masked_greater(points(300), 0.9)
+        fitted = GNG(max_units=10, growth_period=10).fit(points(300))
+        for ask in (GNG().fit, fitted.partial_fit, fitted.predict):
+            with pytest.raises(ValueError, match="masked values"):
+                ask(x)
+        assert len(GNG(max_units=5, growth_period=9).fit(np.ma.masked_array(points(300))).units_) == 5
+
+    def test_sample_weight_is_refused(self):
+        x = points(30)
+        for learn in (GNG().fit, GNG().partial_fit, GNG().fit_predict):
+            with pytest.raises(TypeError, match="takes no sample_weight"):
+                learn(x, sample_weight=np.ones(30))
+        with pytest.raises(TypeError, match="unexpected keyword argument 'wieght'"):
+            GNG().fit(x, wieght=1)
+
+
+class TestFit:
+    def test_one_call_gives_the_units_asked_for(self):
+        from sklearn.cluster import MiniBatchKMeans
+        from sklearn.datasets import load_digits
+
+        x = load_digits().data
+        gng = GNG(max_units=100).fit(x)
+        k_means = MiniBatchKMeans(100, n_init=1, random_state=0).fit(x)
+        assert len(gng.units_) == 100
+        assert gng.quantization_error(x) < 1.15 * k_means.inertia_ / len(x)
+
+    def test_it_warns_of_fewer_units(self):
+        from sklearn.exceptions import ConvergenceWarning
+
+        with pytest.warns(ConvergenceWarning, match="GNG has .* of the 100 units of max_units: 300 inputs are too few"):
+            GNG(max_units=100, n_epochs=1).fit(points(300))
+        with pytest.warns(ConvergenceWarning, match="too few different rows"):
+            GNG(max_units=5).fit(np.ones((300, 2)))
+
+    def test_epochs_go_on_with_the_same_rows(self):
+        x = points(500)
+        by_hand = GNG(max_units=40, growth_period=20)
+        for _ in range(3):
+            by_hand.partial_fit(x)
+        assert (GNG(max_units=40, growth_period=20, n_epochs=3).fit(x).units_ == by_hand.units_).all()
+        for wrong in (0, 1.5, "many"):
+            with pytest.raises(ValueError, match="n_epochs is"):
+                GNG(n_epochs=wrong).fit(x)
+
+    def test_shuffling_repeats_by_its_seed_and_serves_sorted_rows(self):
+        x = np.sort(points(4000), axis=0)
+
+        def fitted(**how):
+            return GNG(max_units=50, growth_period=20, n_epochs=2, **how).fit(x)
+
+        once, again, other = (fitted(shuffle=True, random_state=seed) for seed in (1, 1, 2))
+        assert (once.units_ == again.units_).all() and not np.array_equal(once.units_, other.units_)
+        assert once.quantization_error(x) < fitted().quantization_error(x)
+
+    def test_labels_are_what_predict_says(self):
+        x = points()
+        for estimator in ALL:
+            fitted = copy_of(estimator).fit(x)
+            assert (fitted.labels_ == fitted.predict(x)).all()
+            assert not hasattr(fitted.partial_fit(x[:9]), "labels_")
+        gng = GNG(compute_labels=False)
+        assert (gng.fit_predict(x) == gng.predict(x)).all() and not hasattr(gng, "labels_")
+
+    def test_progress_is_told(self, capsys):
+        told = []
+        GNG(max_units=50, n_epochs=2, growth_period=50, progress=lambda done, total: told.append((done, total))).fit(points(2000))
+        assert told[-1] == (4000, 4000) and sorted(told) == told
+        GNG(max_units=20, progress=True).fit(points(2000))
+        assert "GNG: 4000 of 4000 rows\n" in capsys.readouterr().err
+
+    def test_a_pickle_is_hardly_larger_than_the_units(self):
+        x = np.random.default_rng(0).random((2000, 100))
+        gng = GNG(max_units=200, growth_period=10, compute_labels=False).fit(x)
+        assert len(pickle.dumps(gng)) < 1.2 * gng.units_.nbytes
+
+
+class TestThreadsAndSignals:
+    def test_others_read_while_one_learns(self):
+        x = points(600_000)
+        gng = GNG(max_units=2000, growth_period=20, compute_labels=False).partial_fit(x[:100])
+        learning = threading.Thread(target=gng.partial_fit, args=(x,))
+        learning.start()
+        sizes, reads = [], 0
+        while learning.is_alive():
+            assert len(gng.predict_cluster(x[:10])) == 10
+            sizes.append(len(gng.units_))
+            gng.edges_, gng.clusters_, pickle.dumps(gng)
+            reads += 1
+        learning.join()
+        assert reads > 3 and len(set(sizes)) > 2, (reads, sizes)
+
+    def test_control_c_ends_learning_and_keeps_it(self):
+        import os
+        import signal
+
+        x = np.random.default_rng(0).random((400_000, 32))
+        sent = []
+
+        def send(done, total):
+            if not sent:
+                sent.append(time.perf_counter())
+                os.kill(os.getpid(), signal.SIGINT)
+
+        gng = GNG(max_units=2000, growth_period=20, progress=send)
+        with pytest.raises(KeyboardInterrupt):
+            gng.fit(x)
+        # A tenth of a second on a free processor.
+        assert time.perf_counter() - sent[0] < 1.0
+        assert len(gng.units_) > 10 and not hasattr(gng, "labels_")
+
+
+class TestMiniBatches:
+    @pytest.mark.parametrize(("features", "units"), [(8, 100), (64, 100), (200, 50)])
+    @pytest.mark.parametrize("dtype", [np.float64, np.float32])
+    def test_the_error_is_that_of_row_by_row(self, features, units, dtype):
+        rng = np.random.default_rng(features)
+        x = (rng.random((8000, 3)) @ rng.normal(size=(3, features)) + 0.05 * rng.normal(size=(8000, features))).astype(dtype)
+        exact, batched = (GNG(max_units=units, growth_period=20, batch_size=size).fit(x) for size in (None, 256))
+        assert len(batched.units_) == units
+        assert batched.quantization_error(x) < 1.02 * exact.quantization_error(x)
+        again = GNG(max_units=units, growth_period=20, batch_size=256).fit(x)
+        assert (again.units_ == batched.units_).all()
+
+    def test_far_from_the_origin_it_finds_the_same(self):
+        x = points(4000) @ np.random.default_rng(1).random((2, 20))
+        near, far = (GNG(max_units=40, growth_period=20, batch_size=64).fit(y) for y in (x, x + 1e7))
+        assert far.quantization_error(x + 1e7) < 1.1 * near.quantization_error(x)
+
+    def test_a_wrong_size_is_named(self):
+        for wrong in (0, 2.5, 10**6):
+            with pytest.raises(ValueError, match="batch_size is"):
+                GNG(batch_size=wrong).fit(points(100))
+
+
+class TestWhatANotebookShows:
+    def test_files_take_the_graph(self):
+        import io
+
+        networkx = pytest.importorskip("networkx")
+        graph = GNG(max_units=10, growth_period=10).fit(points()).to_networkx()
+        for write in (networkx.write_graphml, networkx.write_gexf, networkx.write_gml):
+            write(graph, io.BytesIO())
+
+    def test_pictures_have_a_dot_a_unit(self):
+        gng = GNG(max_units=10, growth_period=10)
+        assert "<svg" not in gng._repr_mimebundle_()["text/html"]
+        gng.fit(points())
+        assert gng.svg().count("<circle") == 10 and "<svg" in gng._repr_mimebundle_()["text/html"]
+        assert GNG(max_units=4, growth_period=9).fit(points()[:, :1]).svg().count("<circle") == 4
+        with pytest.raises(ValueError, match="features has 2, but the features are 0 to 1"):
+            gng.svg(features=(0, 2))
+        matplotlib = pytest.importorskip("matplotlib")
+        matplotlib.use("Agg")
+        assert len(gng.plot().collections) == 2

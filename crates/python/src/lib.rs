@@ -1,18 +1,15 @@
 //! The Rust part of the Python module `tolman`: `tolman._tolman`.
 //!
-//! `python/tolman` is the other part: the estimators, the environment and the types. Slow or long
-//! work happens here, with Python's lock released.
+//! `python/tolman` is the other part: the environment and the types. Slow or long work
+//! happens here, with Python's lock released.
 
 mod bump_map;
 mod errors;
-mod learner;
 mod log;
 mod map;
 mod maze;
-mod params;
 mod planners;
 mod robot;
-mod rows;
 mod system;
 
 /// The module as Python imports it.
@@ -20,8 +17,6 @@ mod system;
 mod _tolman {
     #[pymodule_export]
     use crate::bump_map::PyBumpMap;
-    #[pymodule_export]
-    use crate::learner::PyLearner;
     #[pymodule_export]
     use crate::log::map_log;
     #[pymodule_export]

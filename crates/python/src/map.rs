@@ -67,17 +67,88 @@ impl PyMap {
         Ok(PyArray2::from_owned_array(py, rows))
     }
 
-    /// Returns the map as a directed graph of networkx. Its nodes are ids with the attributes of
-    /// [`Self::places`].
+    /// Returns the map as a directed graph of networkx. Its nodes are ids, with the attributes x
+    /// and y, m, and landmark, as text, each as far as it is known.
     fn to_networkx<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let graph = py.import("networkx")?.call_method0("DiGraph")?;
         for place in &self.view.places {
-            graph.call_method("add_node", (place.id,), Some(&told(py, place)?))?;
+            let known = told(py, place)?;
+            if let Some(position) = place.position {
+                known.del_item("position")?;
+                known.set_item("x", position.x)?;
+                known.set_item("y", position.y)?;
+            }
+            // Files of graphs hold one type an attribute.
+            if let Some(landmark) = known.get_item("landmark")? {
+                known.set_item("landmark", landmark.str()?)?;
+            }
+            graph.call_method("add_node", (place.id,), Some(&known))?;
         }
         for link in &self.view.links {
             graph.call_method1("add_edge", (link.from, link.to))?;
         }
         Ok(graph)
+    }
+
+    /// Returns a drawing as SVG: a dot for each place whose position is known, S at the start and G
+    /// at the goal, and the links between them.
+    fn svg(&self) -> String {
+        let placed = self.view.places.iter();
+        let placed = placed.filter_map(|place| Some((place, place.position?)));
+        let placed: Vec<_> = placed.collect();
+        let span = |part: fn(&tolman_geom::Point) -> f64| {
+            let values = placed.iter().map(|(_, position)| part(position));
+            let (low, high) = values
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+                    (low.min(value), high.max(value))
+                });
+            (low, high)
+        };
+        let ((west, east), (south, north)) = (span(|at| at.x), span(|at| at.y));
+        let side = 320.0;
+        let scale = (side - 24.0) / (east - west).max(north - south).max(1e-9);
+        let at = |position: tolman_geom::Point| {
+            let (x, y) = (position.x - west, north - position.y);
+            (12.0 + scale * x, 12.0 + scale * y)
+        };
+        let position = |id: u32| {
+            let found = placed.iter().find(|(place, _)| place.id == id);
+            found.map(|(_, position)| at(*position))
+        };
+        let mut drawn = String::new();
+        for link in &self.view.links {
+            if let (Some(from), Some(to)) = (position(link.from), position(link.to)) {
+                drawn.push_str(&format!(
+                    "<path d=\"M{:.1} {:.1}L{:.1} {:.1}\" stroke=\"#999\"/>",
+                    from.0, from.1, to.0, to.1
+                ));
+            }
+        }
+        for (place, position) in &placed {
+            let (x, y) = at(*position);
+            drawn.push_str(&format!(
+                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"3\" fill=\"#1f77b4\"/>"
+            ));
+            let letter = match place.landmark {
+                Some(Landmark::Start) => "S",
+                Some(Landmark::Goal) => "G",
+                _ => continue,
+            };
+            drawn.push_str(&format!(
+                "<text x=\"{:.1}\" y=\"{:.1}\">{letter}</text>",
+                x + 5.0,
+                y - 5.0
+            ));
+        }
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{side}\" height=\"{side}\" viewBox=\"0 0 {side} {side}\" \
+             font-family=\"sans-serif\" font-size=\"12\">{drawn}</svg>"
+        )
+    }
+
+    /// Returns what a notebook shows.
+    fn _repr_html_(&self) -> String {
+        self.svg()
     }
 
     fn __len__(&self) -> usize {

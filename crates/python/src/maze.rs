@@ -1,10 +1,13 @@
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::PathBuf;
 
+use numpy::ndarray::Array2;
+use numpy::{PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 use rand_chacha::ChaCha8Rng;
 use tolman_arena::family::Family;
 use tolman_maze::rand::SeedableRng;
-use tolman_maze::{Cell, Direction, Format, Maze, MazeFile};
+use tolman_maze::{Cell, Direction, Format, Grid, Maze, MazeFile};
 use tolman_planners::{Arcs, path_to};
 
 use crate::errors::{reasons, refused, unread, wrong};
@@ -19,23 +22,25 @@ pub(crate) struct PyMaze {
     pub(crate) file: MazeFile,
 }
 
-/// The source of a maze.
-#[derive(FromPyObject)]
-enum Source {
-    Text(String),
-    Path(PathBuf),
-}
-
 #[pymethods]
 impl PyMaze {
     /// Reads a maze in any format that `tolman maze check` accepts. `source` is a text of several
-    /// lines or the path of a file.
+    /// lines, the path of a file, or an array as [`Self::to_array`] returns it: 1 for a wall or a
+    /// post, 0 where it is open.
     #[new]
-    fn new(source: Source) -> PyResult<Self> {
-        let (name, text) = match source {
-            Source::Text(text) if text.trim_end().contains('\n') => ("maze".to_owned(), text),
-            Source::Text(path) => of_file(&PathBuf::from(path))?,
-            Source::Path(path) => of_file(&path)?,
+    fn new(source: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let (name, text) = if let Ok(text) = source.extract::<String>() {
+            match text.trim_end().contains('\n') {
+                true => ("maze".to_owned(), text),
+                false => of_file(&PathBuf::from(text))?,
+            }
+        } else if let Ok(path) = source.extract::<PathBuf>() {
+            of_file(&path)?
+        } else {
+            return Ok(Self {
+                name: "maze".to_owned(),
+                file: MazeFile::from(of_array(source)?),
+            });
         };
         let file = tolman_maze::read(&text).map_err(|error| refused(&name, &error))?;
         let name = file.name.clone().unwrap_or(name);
@@ -176,6 +181,103 @@ impl PyMaze {
         Ok(graph)
     }
 
+    /// Returns the walls as an array of shape (2 height + 1, 2 width + 1), the north in the first
+    /// row: 1 for a wall or a post, 0 where it is open. The cell (x, y) is at row
+    /// 2 (height − y) − 1, column 2 x + 1.
+    fn to_array<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<u8>> {
+        let maze = self.maze();
+        let grid = maze.grid();
+        let (width, height) = (usize::from(grid.width()), usize::from(grid.height()));
+        let mut walls = Array2::<u8>::ones((2 * height + 1, 2 * width + 1));
+        for cell in grid.cells() {
+            let middle = place(grid, cell);
+            walls[middle] = 0;
+            for direction in Direction::ALL {
+                if maze.is_open(cell, direction) {
+                    walls[ahead(middle, direction)] = 0;
+                }
+            }
+        }
+        PyArray2::from_owned_array(py, walls)
+    }
+
+    /// Returns a drawing as SVG: walls, S at the start and G at the goals.
+    fn svg(&self) -> String {
+        let maze = self.maze();
+        let grid = maze.grid();
+        let side = 24;
+        let (width, height) = (
+            u32::from(grid.width()) * side,
+            u32::from(grid.height()) * side,
+        );
+        let corner = |cell: Cell| (u32::from(cell.x) * side, height - u32::from(cell.y) * side);
+        let mut walls = String::new();
+        let mut marks = String::new();
+        for cell in grid.cells() {
+            let (west, south) = corner(cell);
+            let (east, north) = (west + side, south - side);
+            // Each inner wall once, and the border.
+            for (direction, from, to) in [
+                (Direction::North, (west, north), (east, north)),
+                (Direction::East, (east, south), (east, north)),
+                (Direction::South, (west, south), (east, south)),
+                (Direction::West, (west, south), (west, north)),
+            ] {
+                let is_twice = matches!(direction, Direction::South | Direction::West);
+                let is_drawn = !is_twice || maze.beside(cell, direction).is_none();
+                if is_drawn && !maze.is_open(cell, direction) {
+                    walls.push_str(&format!("M{} {}L{} {}", from.0, from.1, to.0, to.1));
+                }
+            }
+            let is_start = maze.start().is_some_and(|(start, _)| start == cell);
+            let letter = match (is_start, maze.goals().contains(&cell)) {
+                (true, _) => "S",
+                (false, true) => "G",
+                (false, false) => continue,
+            };
+            let (x, y) = (west + side / 2, south - side / 3);
+            marks.push_str(&format!(
+                "<text x=\"{x}\" y=\"{y}\" text-anchor=\"middle\">{letter}</text>"
+            ));
+        }
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" height=\"{}\" viewBox=\"-2 -2 {} {}\" \
+             font-family=\"sans-serif\" font-size=\"14\"><path d=\"{walls}\" stroke=\"#222\" stroke-width=\"2\" \
+             fill=\"none\"/>{marks}</svg>",
+            width + 4,
+            height + 4,
+            width + 4,
+            height + 4
+        )
+    }
+
+    /// Returns what a notebook shows.
+    fn _repr_html_(&self) -> String {
+        self.svg()
+    }
+
+    /// Writes the maze in the project's format, as the command reads it.
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "Python hands over a path of its own"
+    )]
+    fn save(&self, path: PathBuf) -> PyResult<()> {
+        let text = self.text()?;
+        std::fs::write(&path, text).map_err(|error| unread(&path.display().to_string(), &error))
+    }
+
+    fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
+        other
+            .cast::<Self>()
+            .is_ok_and(|other| other.get().file == self.file)
+    }
+
+    fn __hash__(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        self.maze().to_string().hash(&mut hasher);
+        hasher.finish()
+    }
+
     fn __str__(&self) -> String {
         self.maze().to_string()
     }
@@ -191,15 +293,19 @@ impl PyMaze {
 
     /// Returns the arguments that make a copy, for `pickle`.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
-        let text = tolman_maze::write(&slf.get().file, Format::Tolman);
-        let text = text.map_err(|error| refused("maze", &error))?;
-        Ok((slf.get_type().into_any(), (text,)))
+        Ok((slf.get_type().into_any(), (slf.get().text()?,)))
     }
 }
 
 impl PyMaze {
     pub(crate) const fn maze(&self) -> &Maze {
         &self.file.maze
+    }
+
+    /// Returns the maze in the project's format.
+    fn text(&self) -> PyResult<String> {
+        let text = tolman_maze::write(&self.file, Format::Tolman);
+        text.map_err(|error| refused("maze", &error))
     }
 
     /// Returns a cell of the maze.
@@ -232,6 +338,81 @@ pub(crate) fn direction(parameter: &str, name: &str) -> PyResult<Direction> {
                 "{parameter} is '{name}' but has to be 'north', 'east', 'south' or 'west'"
             ))
         })
+}
+
+/// Returns the row and column of a cell in an array of walls.
+fn place(grid: Grid, cell: Cell) -> [usize; 2] {
+    let row = 2 * usize::from(grid.height() - cell.y) - 1;
+    [row, 2 * usize::from(cell.x) + 1]
+}
+
+/// Returns the place of the wall beside a cell.
+const fn ahead([row, column]: [usize; 2], direction: Direction) -> [usize; 2] {
+    match direction {
+        Direction::North => [row - 1, column],
+        Direction::East => [row, column + 1],
+        Direction::South => [row + 1, column],
+        Direction::West => [row, column - 1],
+    }
+}
+
+/// Returns the maze of an array of walls.
+///
+/// # Errors
+/// A `ValueError` that says how the array has to be.
+fn of_array(source: &Bound<'_, PyAny>) -> PyResult<Maze> {
+    let py = source.py();
+    let how = "source has to be a text of several lines, a path, or an array of 0 and 1";
+    let array = py.import("numpy")?.call_method1("asarray", (source,));
+    let array = array.and_then(|array| array.call_method1("astype", ("float64",)));
+    let array = array.map_err(|_| wrong(format!("{how}, not {}", kind(source))))?;
+    let array = array.extract::<PyReadonlyArray2<'_, f64>>();
+    let array = array.map_err(|_| wrong(format!("{how} with two dimensions")))?;
+    let walls = array.as_array();
+    let (rows, columns) = walls.dim();
+    let longest = 2 * usize::from(u8::MAX) + 1;
+    if rows % 2 == 0 || columns % 2 == 0 || rows < 3 || columns < 3 || rows.max(columns) > longest {
+        return Err(wrong(format!(
+            "source has the shape ({rows}, {columns}), but an array of walls has the shape (2 height + 1, 2 width + 1), \
+             up to {longest}: cells, and walls between them"
+        )));
+    }
+    if let Some(((row, column), value)) = walls
+        .indexed_iter()
+        .find(|(_, value)| ![0.0, 1.0].contains(*value))
+    {
+        return Err(wrong(format!(
+            "source has {value} at row {row}, column {column}, but 1 is a wall and 0 is open"
+        )));
+    }
+    let grid = Grid::new((columns / 2) as u16, (rows / 2) as u16);
+    let mut maze = Maze::open(grid);
+    for cell in grid.cells() {
+        let middle = place(grid, cell);
+        if walls[middle] > 0.5 {
+            let [row, column] = middle;
+            return Err(wrong(format!(
+                "source has a wall at row {row}, column {column}, the middle of a cell: cells are at odd rows and columns"
+            )));
+        }
+        for direction in Direction::ALL {
+            let [row, column] = ahead(middle, direction);
+            let stands = walls[[row, column]] > 0.5;
+            if maze.beside(cell, direction).is_none() && !stands {
+                return Err(wrong(format!(
+                    "source is open at row {row}, column {column}, but the border has to be closed"
+                )));
+            }
+            maze.set_wall(cell, direction, stands);
+        }
+    }
+    Ok(maze)
+}
+
+/// Returns the name of a value's type.
+fn kind(value: &Bound<'_, PyAny>) -> String {
+    let name = value.get_type().name();
+    name.map_or_else(|_| "this".to_owned(), |name| name.to_string())
 }
 
 const fn tuple(cell: Cell) -> CellTuple {

@@ -1,37 +1,197 @@
+//! Search on graphs of Python's own. Only what a search reaches is looked up.
+
+use core::cell::RefCell;
+
 use pyo3::prelude::*;
-use tolman_planners::{Arcs, a_star};
+use pyo3::types::{PyDict, PyMapping};
+use tolman_planners::{Graph, a_star, path_between};
 
 use crate::errors::wrong;
 
 /// Returns the nodes of a cheapest path from `source` to `target` and its cost, or `None` if no
-/// path leads there. Nodes are numbers below `nodes`; `arcs` are tuples (tail, head, cost).
+/// path leads there.
 #[pyfunction]
-#[expect(
-    clippy::needless_pass_by_value,
-    reason = "Python hands over a list of its own"
-)]
-pub(crate) fn cheapest_path(
-    py: Python<'_>,
-    nodes: usize,
-    arcs: Vec<(u32, u32, u32)>,
-    source: u32,
-    target: u32,
-) -> PyResult<Option<(Vec<u32>, u32)>> {
-    if let Some(&(tail, head, _)) = arcs
-        .iter()
-        .find(|(tail, head, _)| (*tail).max(*head) as usize >= nodes)
-    {
-        return Err(wrong(format!(
-            "arcs: {tail} to {head} is not an arc between {nodes} nodes, which are numbered from 0"
-        )));
+#[pyo3(signature = (graph, source, target, weight))]
+pub(crate) fn cheapest_path<'py>(
+    graph: &Bound<'py, PyAny>,
+    source: &Bound<'py, PyAny>,
+    target: &Bound<'py, PyAny>,
+    weight: Option<&str>,
+) -> PyResult<Option<(Vec<Bound<'py, PyAny>>, u32)>> {
+    // What networkx's own searches use; its mappings are written in Python.
+    let inner = |name: &str| {
+        let found = graph.getattr(name).ok();
+        found.filter(|found| found.is_instance_of::<PyDict>())
+    };
+    let adjacent = inner("_adj").unwrap_or_else(|| graph.clone());
+    for (name, node) in [("source", source), ("target", target)] {
+        if !adjacent.contains(node)? {
+            return Err(wrong(format!(
+                "{name} is {}, which is no node of the graph",
+                node.repr()?
+            )));
+        }
     }
-    py.detach(|| {
-        let found = a_star(
-            &Arcs::new(nodes, &arcs),
-            source,
-            |node| node == target,
-            |_| 0,
-        );
-        Ok(found.map(|found| (found.path, found.cost)))
-    })
+    // Undirected graphs have no predecessors.
+    let before = inner("_pred").or_else(|| inner("_adj"));
+    let known = RefCell::new(Known {
+        nodes: Vec::new(),
+        numbers: PyDict::new(graph.py()),
+        fault: None,
+    });
+    let from = known.borrow_mut().number(source)?;
+    let to = known.borrow_mut().number(target)?;
+    let lazy = |adjacent: Bound<'py, PyAny>| {
+        let count = adjacent.len()?;
+        PyResult::Ok(Lazy {
+            count,
+            adjacent,
+            weight,
+            known: &known,
+        })
+    };
+    let found = match before {
+        Some(before) => path_between(&lazy(adjacent)?, &lazy(before)?, from, to),
+        None => {
+            let found = a_star(&lazy(adjacent)?, from, |node| node == to, |_| 0);
+            found.map(|found| (found.path, found.cost))
+        }
+    };
+    let known = known.into_inner();
+    if let Some(fault) = known.fault {
+        return Err(fault);
+    }
+    Ok(found.map(|(path, cost)| {
+        let nodes = path.iter().map(|node| known.nodes[*node as usize].clone());
+        (nodes.collect(), cost)
+    }))
+}
+
+/// A graph that numbers its nodes as a search meets them.
+struct Lazy<'a, 'py> {
+    count: usize,
+    /// For each node the nodes that its arcs lead to, or a mapping of them to costs or attributes.
+    adjacent: Bound<'py, PyAny>,
+    weight: Option<&'a str>,
+    known: &'a RefCell<Known<'py>>,
+}
+
+struct Known<'py> {
+    nodes: Vec<Bound<'py, PyAny>>,
+    numbers: Bound<'py, PyDict>,
+    /// The first fault of the graph. Nothing is looked up any more.
+    fault: Option<PyErr>,
+}
+
+impl<'py> Known<'py> {
+    fn number(&mut self, node: &Bound<'py, PyAny>) -> PyResult<u32> {
+        if let Some(number) = self.numbers.get_item(node)? {
+            return number.extract();
+        }
+        let number = self.nodes.len() as u32;
+        self.numbers.set_item(node, number)?;
+        self.nodes.push(node.clone());
+        Ok(number)
+    }
+}
+
+impl Graph for Lazy<'_, '_> {
+    fn node_count(&self) -> usize {
+        self.count
+    }
+
+    fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
+        let known = &mut *self.known.borrow_mut();
+        if known.fault.is_none()
+            && let Err(fault) = self.list(known, node, &mut visit)
+        {
+            known.fault = Some(fault);
+        }
+    }
+}
+
+impl<'py> Lazy<'_, 'py> {
+    fn list(
+        &self,
+        known: &mut Known<'py>,
+        node: u32,
+        visit: &mut impl FnMut(u32, u32),
+    ) -> PyResult<()> {
+        let tail = known.nodes[node as usize].clone();
+        let heads = self.adjacent.get_item(&tail)?;
+        let mut arc = |head: &Bound<'py, PyAny>, cost: Option<Bound<'py, PyAny>>| {
+            let cost = self.cost(cost, &tail, head)?;
+            let number = match known.numbers.get_item(head)? {
+                Some(number) => number.extract()?,
+                None if self.adjacent.contains(head)? => known.number(head)?,
+                None => {
+                    return Err(wrong(format!(
+                        "graph: {} leads to {}, which is no node of it",
+                        tail.repr()?,
+                        head.repr()?
+                    )));
+                }
+            };
+            visit(number, cost);
+            PyResult::Ok(())
+        };
+        if let Ok(heads) = heads.cast::<PyDict>() {
+            for (head, cost) in heads.iter() {
+                arc(&head, Some(cost))?;
+            }
+            return Ok(());
+        }
+        let is_mapping = heads.cast::<PyMapping>().is_ok();
+        for head in heads.try_iter()? {
+            let head = head?;
+            let cost = is_mapping.then(|| heads.get_item(&head)).transpose()?;
+            arc(&head, cost)?;
+        }
+        Ok(())
+    }
+
+    /// Returns the cost of an arc, given what the graph holds of it; 1 if that is nothing.
+    fn cost(
+        &self,
+        held: Option<Bound<'py, PyAny>>,
+        tail: &Bound<'py, PyAny>,
+        head: &Bound<'py, PyAny>,
+    ) -> PyResult<u32> {
+        let has_attributes = held
+            .as_ref()
+            .is_some_and(|held| held.cast::<PyMapping>().is_ok());
+        let cost = match (held, self.weight) {
+            (Some(attributes), Some(weight)) if has_attributes => {
+                if !attributes.contains(weight)? {
+                    return Err(wrong(format!(
+                        "weight: the arc from {} to {} has no attribute '{weight}'",
+                        tail.repr()?,
+                        head.repr()?
+                    )));
+                }
+                attributes.get_item(weight)?
+            }
+            (Some(_), None) if has_attributes => return Ok(1),
+            (_, Some(_)) => {
+                return Err(wrong(
+                    "weight is for graphs whose arcs have attributes, as those of networkx"
+                        .to_owned(),
+                ));
+            }
+            (Some(cost), None) => cost,
+            (None, None) => return Ok(1),
+        };
+        let whole = cost.extract::<u32>().ok().or_else(|| {
+            let number = cost.extract::<f64>().ok()?;
+            let is_whole = number.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&number);
+            is_whole.then_some(number as u32)
+        });
+        whole.ok_or_else(|| match (cost.repr(), tail.repr(), head.repr()) {
+            (Ok(cost), Ok(tail), Ok(head)) => wrong(format!(
+                "the cost from {tail} to {head} is {cost} but has to be a whole number from 0 to {}",
+                u32::MAX
+            )),
+            _ => wrong("a cost has to be a whole number".to_owned()),
+        })
+    }
 }

@@ -18,10 +18,14 @@ pub(crate) type PoseTuple = (f64, f64, f64);
 pub(crate) struct PyRobot {
     robot: CoursePioneer,
     course: Course,
+    /// What it was made of.
+    made: (Py<PyMaze>, u64, Start, bool),
+    /// All steps so far, turn and translate: a copy repeats them.
+    driven: Vec<(f64, f64)>,
 }
 
 /// The start of a robot.
-#[derive(FromPyObject)]
+#[derive(Clone, FromPyObject, IntoPyObject)]
 enum Start {
     Named(String),
     At(PoseTuple),
@@ -37,7 +41,9 @@ impl PyRobot {
         signature = (maze, *, seed = 1, start = Start::Named("marked".to_owned()), noise = true),
         text_signature = "(maze, *, seed=1, start='marked', noise=True)"
     )]
-    fn new(maze: &PyMaze, seed: u64, start: Start, noise: bool) -> PyResult<Self> {
+    fn new(maze: Py<PyMaze>, seed: u64, start: Start, noise: bool) -> PyResult<Self> {
+        let made = (maze, seed, start.clone(), noise);
+        let maze = made.0.get();
         let course = Course::for_body(&maze.name, &maze.file, &body());
         let course = course.map_err(|error| refused("maze", &error))?;
         let start = match start {
@@ -62,7 +68,49 @@ impl PyRobot {
         let robot = LaserPioneer::new(config).map_err(|error| refused("noise", &error))?;
         let robot = course.robot_at(start, robot, seed);
         let robot = robot.map_err(|error| refused("start", &error))?;
-        Ok(Self { robot, course })
+        Ok(Self {
+            robot,
+            course,
+            made,
+            driven: Vec::new(),
+        })
+    }
+
+    /// Returns a robot that has made the steps of another, which gives it the same state.
+    #[staticmethod]
+    fn _driven(
+        py: Python<'_>,
+        maze: Py<PyMaze>,
+        seed: u64,
+        start: Start,
+        noise: bool,
+        driven: Vec<(f64, f64)>,
+    ) -> PyResult<Self> {
+        let mut robot = Self::new(maze, seed, start, noise)?;
+        for (turn, translate) in driven {
+            robot.step(py, turn, translate)?;
+        }
+        Ok(robot)
+    }
+
+    /// Returns what makes a copy, for `pickle` and `copy`.
+    #[expect(clippy::type_complexity, reason = "a tuple is what Python takes apart")]
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(
+        Bound<'py, PyAny>,
+        (Py<PyMaze>, u64, Start, bool, Vec<(f64, f64)>),
+    )> {
+        let this = slf.borrow();
+        let (maze, seed, start, noise) = &this.made;
+        let made = (
+            maze.clone_ref(slf.py()),
+            *seed,
+            start.clone(),
+            *noise,
+            this.driven.clone(),
+        );
+        Ok((slf.getattr("_driven")?, made))
     }
 
     /// Makes a time step. `turn` is the share of a full turn per step, counter-clockwise;
@@ -78,7 +126,9 @@ impl PyRobot {
         let command = TurnTranslate { turn, translate };
         let robot = &mut self.robot;
         py.detach(|| robot.step(&command))
-            .map_err(|error| wrong(reasons(&error)))
+            .map_err(|error| wrong(reasons(&error)))?;
+        self.driven.push((turn, translate));
+        Ok(())
     }
 
     /// Returns the ranges of the laser's beams, m, counter-clockwise from the one that looks ahead;

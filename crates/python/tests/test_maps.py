@@ -39,7 +39,12 @@ def test_a_map_is_a_graph():
     assert set(graph.edges) == set(learned.links) and set(graph) == set(learned.places)
     assert networkx.is_weakly_connected(graph)
     goals = [place for place, known in graph.nodes(data=True) if known.get("landmark") == "goal"]
-    assert goals and all(len(known["position"]) == 2 for _, known in graph.nodes(data=True))
+    assert goals and all(isinstance(known["x"], float) for _, known in graph.nodes(data=True))
+    import io
+
+    for write in (networkx.write_graphml, networkx.write_gexf, networkx.write_gml):
+        write(graph, io.BytesIO())
+    assert learned._repr_html_().count("<circle") == len(learned)
 
 
 def test_a_log_is_mapped():

@@ -9,6 +9,7 @@ import pytest
 
 ROOT = Path(__file__).parents[3]
 PAGE = ROOT / "docs" / "python.md"
+NOTEBOOKS = sorted((ROOT / "crates" / "python" / "examples").glob("*.ipynb"))
 EXAMPLE = ROOT / "crates" / "python" / "examples" / "learn_a_maze.py"
 
 
@@ -30,3 +31,13 @@ def test_the_example_runs(monkeypatch, capsys, arguments):
     runpy.run_path(str(EXAMPLE), run_name="__main__")
     told = capsys.readouterr().out
     assert "right: True" in told and "30 prototypes" in told and "way on the map: [0" in told
+
+
+@pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
+def test_the_notebooks_run(notebook):
+    nbformat = pytest.importorskip("nbformat")
+    nbclient = pytest.importorskip("nbclient")
+    pytest.importorskip("ipykernel")
+    pytest.importorskip("matplotlib")
+    read = nbformat.read(notebook, as_version=4)
+    nbclient.NotebookClient(read, timeout=600, kernel_name="python3", resources={"metadata": {"path": str(ROOT)}}).execute()

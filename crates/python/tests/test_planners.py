@@ -38,7 +38,7 @@ def test_it_is_as_short_as_that_of_networkx():
     [
         ({"a": []}, "z", "a", None, "source is 'z'"),
         ({"a": []}, "a", "z", None, "target is 'z'"),
-        ({"a": ["z"]}, "a", "a", None, "graph: 'a' leads to 'z'"),
+        ({"a": ["z"], "b": []}, "a", "b", None, "graph: 'a' leads to 'z'"),
         ({"a": {"b": -1}, "b": {}}, "a", "b", None, "the cost from 'a' to 'b' is -1"),
         ({"a": {"b": 0.5}, "b": {}}, "a", "b", None, "the cost from 'a' to 'b' is 0.5"),
         ({"a": {"b": "x"}, "b": {}}, "a", "b", None, "the cost from 'a' to 'b' is 'x'"),
@@ -49,3 +49,13 @@ def test_it_is_as_short_as_that_of_networkx():
 def test_wrong_input_is_named(graph, source, target, weight, said):
     with pytest.raises(ValueError, match=said):
         shortest_path(graph, source, target, weight=weight)
+
+
+def test_a_graph_of_networkx_may_be_of_any_kind():
+    networkx = pytest.importorskip("networkx")
+    grid = networkx.grid_2d_graph(30, 30)
+    path = shortest_path(grid, (0, 0), (29, 29))
+    assert path.cost == 58 and all(grid.has_edge(*pair) for pair in zip(path.nodes, path.nodes[1:]))
+    assert shortest_path(grid.to_directed(), (0, 0), (29, 29)).cost == 58
+    assert shortest_path(networkx.Graph([("a", "b", {"m": 2.0}), ("b", "c", {"m": 3})]), "a", "c", weight="m").cost == 5
+    assert shortest_path(networkx.subgraph_view(grid, filter_node=lambda node: node[0] < 3), (0, 0), (2, 9)).cost == 11

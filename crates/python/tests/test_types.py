@@ -1,5 +1,6 @@
 """The stubs say what the module has."""
 
+import json
 import subprocess
 import sys
 from pathlib import Path
@@ -23,6 +24,17 @@ def test_the_stubs_are_those_of_the_module():
 def test_it_is_typed(what):
     pytest.importorskip("mypy")
     checked = subprocess.run([sys.executable, "-m", "mypy", "--strict", *what], capture_output=True, text=True)
+    assert checked.returncode == 0, checked.stdout + checked.stderr
+
+
+def test_pyright_is_content(tmp_path):
+    pytest.importorskip("pyright")
+    import tolman
+
+    config = {"typeCheckingMode": "strict", "include": [str(EXAMPLE), *tolman.__path__], "reportMissingTypeStubs": False}
+    (tmp_path / "pyrightconfig.json").write_text(json.dumps(config))
+    command = [sys.executable, "-m", "pyright", "--pythonpath", sys.executable, "-p", str(tmp_path)]
+    checked = subprocess.run(command, capture_output=True, text=True)
     assert checked.returncode == 0, checked.stdout + checked.stderr
 
 

@@ -80,6 +80,48 @@ def test_wrong_input_is_named(ask, said):
         ask(Maze(HOOK))
 
 
+class TestWalls:
+    def test_an_array_there_and_back(self):
+        hook = Maze(HOOK)
+        walls = hook.to_array()
+        assert walls.shape == (5, 7) and walls[-2, 1] == 0 and walls[-2, 2] == 1 and walls[-3, 1] == 0
+        for same in (walls, walls.tolist(), walls.astype(bool), walls.astype(float)):
+            again = Maze(same)
+            assert (again.to_array() == walls).all() and again.shortest_path((0, 0), (2, 0)) == hook.shortest_path()
+
+    @pytest.mark.parametrize(
+        ("change", "said"),
+        [
+            (lambda walls: walls[:4], r"shape \(4, 7\)"),
+            (lambda walls: walls[0], "two dimensions"),
+            (lambda walls: walls * 2, "has 2 at row 0, column 0"),
+            (lambda walls: 1 - walls, "has a wall at row 3, column 1|open at row"),
+            (lambda walls: np.ones((5, 5)), "the middle of a cell"),
+            (lambda walls: None, "has to be a text .* with two dimensions"),
+            (lambda walls: 3.5, "two dimensions"),
+            (lambda walls: {"a": 1}, "has to be a text .* not dict"),
+        ],
+    )
+    def test_wrong_arrays_are_named(self, change, said):
+        with pytest.raises(ValueError, match=said):
+            Maze(change(Maze(HOOK).to_array()))
+
+    def test_copies_are_equal(self, tmp_path):
+        import copy
+
+        hook = Maze(HOOK)
+        assert copy.deepcopy(hook) == hook == pickle.loads(pickle.dumps(hook)) and hash(copy.copy(hook)) == hash(hook)
+        assert hook != Maze(MAZES / "demo.maze") and hook != 3
+        hook.save(tmp_path / "hook.maze")
+        assert Maze(tmp_path / "hook.maze") == hook
+        with pytest.raises(OSError, match="nowhere"):
+            hook.save(tmp_path / "nowhere" / "hook.maze")
+
+    def test_a_notebook_draws_it(self):
+        drawn = Maze(HOOK)._repr_html_()
+        assert drawn.startswith("<svg") and ">S<" in drawn and ">G<" in drawn
+
+
 def test_a_robot_without_noise_drives_as_told():
     robot = Robot(Maze(HOOK), noise=False)
     x, y, heading = robot.pose
@@ -138,6 +180,38 @@ class TestEnvironment:
             rewards.append(reward)
             ended = arrived or cut
         assert arrived and not cut and sum(rewards) == -len(rewards)
+
+    def test_a_copy_goes_on_alike(self):
+        import copy
+
+        import gymnasium
+        import tolman.gym  # noqa: F401
+
+        env = gymnasium.make("tolman/Maze-v0", maze=Maze(HOOK))
+        env.reset(seed=1)
+        moves = np.random.default_rng(0).uniform(-1, 1, (20, 2)).astype(np.float32)
+        for move in moves[:10]:
+            env.step(move)
+        copies = [copy.deepcopy(env), pickle.loads(pickle.dumps(env.unwrapped))]
+        for move in moves[10:]:
+            seen = env.step(move)[0]["ranges"]
+            assert all((other.step(move)[0]["ranges"] == seen).all() for other in copies)
+        assert env.reset()[1]["pose"] == copies[1].reset()[1]["pose"]
+
+    def test_mazes_change_by_episode_or_option(self):
+        from tolman.gym import MazeEnv
+
+        env = MazeEnv("braided")
+        mazes = {str((env.reset(seed=seed), env.maze)[1]) for seed in (1, 2, 3)}
+        assert len(mazes) == 3
+        limit = env.max_steps
+        env.reset(seed=1, options={"maze": Maze.generate("perfect", 9, 9, seed=4)})
+        assert env.maze.width == 9 and env.max_steps > limit
+        env.reset(seed=2)
+        assert env.maze.width == 9
+        for wrong in ({"maze": 3}, {"maize": Maze(HOOK)}):
+            with pytest.raises(ValueError, match="options has"):
+                env.reset(options=wrong)
 
     def test_time_is_up_after_max_steps(self):
         from tolman.gym import MazeEnv

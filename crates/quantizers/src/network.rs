@@ -8,6 +8,7 @@ mod metric;
 mod prototypes;
 mod search;
 mod snapshot;
+mod sweep;
 mod tree;
 
 use alloc::vec::Vec;
@@ -319,6 +320,24 @@ impl<S: Scalar> Network<S> {
                 .map_or(square, |weights| weights[feature] * square);
         }
         sum
+    }
+
+    /// Returns a slot as a candidate for a valid input, or `None` if its unit is gone.
+    pub(crate) fn candidate(&self, slot: u32, input: &[S]) -> Option<Candidate<S>> {
+        if !self.live[slot as usize] {
+            return None;
+        }
+        let mut squared_distance = S::ZERO;
+        for (feature, (value, own)) in input.iter().zip(self.values(slot as usize)).enumerate() {
+            let square = (*value - own) * (*value - own);
+            squared_distance += self
+                .weights()
+                .map_or(square, |weights| weights[feature] * square);
+        }
+        Some(Candidate {
+            squared_distance,
+            slot,
+        })
     }
 
     /// Returns ‖x‖² of an input, as the distance measures it.

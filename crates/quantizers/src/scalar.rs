@@ -36,6 +36,10 @@ pub trait Scalar:
         self.to_f64().is_finite()
     }
 
+    /// Returns `self · factor + addend`, rounded once.
+    #[doc(hidden)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self;
+
     /// Maximum squared distance. It leaves room for sums of errors.
     #[doc(hidden)]
     const MAX_SQUARED_DISTANCE: f64;
@@ -48,6 +52,14 @@ mod sealed {
 }
 
 impl Scalar for f32 {
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        #[cfg(feature = "std")]
+        return f32::mul_add(self, factor, addend);
+        #[cfg(not(feature = "std"))]
+        libm::fmaf(self, factor, addend)
+    }
+
     const ZERO: Self = 0.0;
     const INFINITY: Self = f32::INFINITY;
     const MAX_SQUARED_DISTANCE: f64 = 1e38;
@@ -63,6 +75,14 @@ impl Scalar for f32 {
 }
 
 impl Scalar for f64 {
+    #[inline(always)]
+    fn mul_add(self, factor: Self, addend: Self) -> Self {
+        #[cfg(feature = "std")]
+        return f64::mul_add(self, factor, addend);
+        #[cfg(not(feature = "std"))]
+        libm::fma(self, factor, addend)
+    }
+
     const ZERO: Self = 0.0;
     const INFINITY: Self = f64::INFINITY;
     const MAX_SQUARED_DISTANCE: f64 = 1e240;

@@ -1,157 +1,287 @@
-"""Growing graphs of prototypes, with the habits of scikit-learn's estimators."""
+"""The quantizers: one class an algorithm."""
 
 from __future__ import annotations
 
-import inspect
-from typing import Any
+import sys
+import warnings
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NoReturn, Union
 
 import numpy as np
 import numpy.typing as npt
 
-from ._tolman import Learner
+from . import _pictures
+from ._protocol import ConvergenceWarning, Estimator, NotFittedError, check_random_state, numbers, optional
+from ._quantizers import Learner
 
-try:
-    from typing import Self  # type: ignore[attr-defined, unused-ignore]
-except ImportError:
-    Self = Any  # type: ignore[misc, assignment, unused-ignore]
+if TYPE_CHECKING:
+    from typing_extensions import Self
+
+Progress = Union[bool, Callable[[int, int], object]]
+"""Whether to show progress on standard error, or what to call with the rows learnt so far and the rows in all."""
 
 
-class NotFittedError(ValueError, AttributeError):
-    """The quantizer has not seen any input yet."""
-
-
-class _Quantizer:
+class _Quantizer(Estimator):
     """What all quantizers have in common.
 
-    Arrays of float32 or float64 are read where they lie; others are converted to float64. The
-    first inputs decide which of the two the units have. Python's lock is released meanwhile.
+    X is an array of shape (rows, features), or a frame. float32 and float64 are read where they
+    lie, and the first X decides which of the two the units have; all else becomes float64. NaN,
+    infinities, masked values, sparse matrices and columns in another order raise, and nothing is
+    learnt from them. While one thread learns, others may read.
     """
 
     _kind: str
     _learner: Learner | None = None
+    n_epochs: int | str
+    shuffle: bool
+    random_state: Any
+    compute_labels: bool
+    progress: Progress
 
-    @classmethod
-    def _names(cls) -> list[str]:
-        return [name for name in inspect.signature(cls).parameters]
+    labels_: npt.NDArray[np.int64]
+    """The number of the nearest unit of each row that `fit` was given, as `predict` says."""
 
-    def get_params(self, deep: bool = True) -> dict[str, Any]:
-        """Return the parameters by name."""
-        return {name: getattr(self, name) for name in self._names()}
+    def fit(self, X: npt.ArrayLike, y: Any = None, **refused: NoReturn) -> Self:
+        """Forget what was learnt, and learn from X.
 
-    def set_params(self, **params: Any) -> Self:
-        """Set parameters by name; they hold from the next `fit` on."""
-        names = self._names()
-        for name in params:
-            if name not in names:
-                raise ValueError(f"{name} is no parameter of {type(self).__name__}, which has {', '.join(names)}")
-        for name, value in params.items():
-            setattr(self, name, value)
-        return self
+        Parameters
+        ----------
+        X : array of shape (rows, features)
+            The inputs, learnt in their order unless `shuffle` is set.
+        y : ignored
 
-    def fit(self, X: npt.ArrayLike, y: Any = None) -> Self:
-        """Forget what was learnt, and learn from the rows of X in their order."""
-        rows = _numbers(X)
-        if rows.ndim == 2 and len(rows) == 0:
-            raise ValueError("X has no rows, so there is nothing to learn")
+        Raises
+        ------
+        ValueError
+            If X or a parameter is wrong: nothing is learnt. The message names the row.
+        KeyboardInterrupt
+            On Ctrl-C, within a tenth of a second. What was learnt by then is kept.
+        """
+        self._refuse("fit", refused)
+        rows = numbers(self, X, reset=True, dtype=[np.float64, np.float32])
         learner = self._begun(rows)
-        learner.observe(rows)
+        learner.check(rows)
+        epochs = self._epochs(len(rows))
+        self.__dict__.pop("labels_", None)
         self._learner = learner
+        self._learn(learner, rows, epochs)
+        self._warn(learner, len(rows) * epochs)
+        if self.compute_labels:
+            self.labels_ = learner.nearest(rows)[0]
         return self
 
-    def partial_fit(self, X: npt.ArrayLike, y: Any = None) -> Self:
-        """Learn from the rows of X in their order, after all that was learnt before."""
+    def partial_fit(self, X: npt.ArrayLike, y: Any = None, **refused: NoReturn) -> Self:
+        """Learn once from the rows of X in their order, after all that was learnt before.
+
+        Raises as `fit` does. `labels_` is forgotten, as it told of other units.
+        """
+        self._refuse("partial_fit", refused)
         learner = self._learner
         if learner is None:
-            rows = _numbers(X)
+            rows = numbers(self, X, reset=True, dtype=[np.float64, np.float32])
             learner = self._begun(rows)
-            learner.observe(rows)
-            self._learner = learner
         else:
-            learner.observe(_like(learner, X))
+            rows = self._like(learner, X)
+        learner.check(rows)
+        self.__dict__.pop("labels_", None)
+        self._learner = learner
+        learner.observe(rows, None, self._batch(), None)
         return self
 
-    def _begun(self, rows: npt.NDArray[Any]) -> Learner:
-        features = rows.shape[1] if rows.ndim == 2 else 1
-        return Learner(self._kind, features, rows.dtype == np.float32, self.get_params())
-
     def predict(self, X: npt.ArrayLike) -> npt.NDArray[np.int64]:
-        """Return for each row the number of the nearest unit: its row in `units_`."""
+        """Return for each row of X the number of the nearest unit: its row in `units_`."""
         learner = self._fitted()
-        return learner.nearest(_like(learner, X))[0]
+        return learner.nearest(self._like(learner, X))[0]
 
-    def fit_predict(self, X: npt.ArrayLike, y: Any = None) -> npt.NDArray[np.int64]:
+    def fit_predict(self, X: npt.ArrayLike, y: Any = None, **refused: NoReturn) -> npt.NDArray[np.int64]:
         """Learn from X, and return for each row the number of the nearest unit."""
-        return self.fit(X).predict(X)
+        self.fit(X, y, **refused)
+        return self.labels_ if self.compute_labels else self.predict(X)
+
+    def transform(self, X: npt.ArrayLike) -> npt.NDArray[Any]:
+        """Return the distance of each row of X to each unit, in the unit of the features: shape (rows, units)."""
+        learner = self._fitted()
+        rows = self._like(learner, X)
+        if not np.isfinite(rows).all():
+            learner.nearest(rows)  # It names the row.
+        distances: npt.NDArray[Any] = optional("scipy.spatial.distance").cdist(rows, self.units_)
+        return distances.astype(rows.dtype, copy=False)
 
     def predict_cluster(self, X: npt.ArrayLike) -> npt.NDArray[np.int64]:
-        """Return for each row the cluster of the nearest unit."""
-        clusters: npt.NDArray[np.int64] = self.clusters_[self.predict(X)]
-        return clusters
+        """Return for each row of X the cluster of the nearest unit, as `clusters_` numbers them."""
+        learner = self._fitted()
+        return learner.nearest(self._like(learner, X))[2]
 
     def quantization_error(self, X: npt.ArrayLike) -> float:
-        """Return the mean squared distance of the rows to their nearest units."""
+        """Return the mean of the **squared** distances of the rows of X to their nearest units (MSE)."""
         learner = self._fitted()
-        squared = learner.nearest(_like(learner, X))[1]
-        if len(squared) == 0:
-            raise ValueError("X has no rows, so there is no error to measure")
-        return float(squared.mean())
+        return float(learner.nearest(self._like(learner, X))[1].mean())
+
+    def topographic_error(self, X: npt.ArrayLike) -> float:
+        """Return the share of the rows of X, 0 to 1, whose two nearest units share no edge."""
+        units, _, edges, _ = self._fitted().graph()
+        if len(units) < 2:
+            return 0.0
+        linked = {(low, high) for low, high, _ in edges.tolist()}
+        apart = 0
+        distances: npt.NDArray[Any] = np.asarray(self.transform(X))
+        for row in np.argpartition(distances, 1, axis=1)[:, :2]:
+            low, high = sorted(row.tolist())
+            apart += (low, high) not in linked
+        return apart / len(distances)
 
     def score(self, X: npt.ArrayLike, y: Any = None) -> float:
         """Return the mean squared distance with a minus, so that more is better."""
         return -self.quantization_error(X)
+
+    @property
+    def units_(self) -> npt.NDArray[Any]:
+        """The prototypes, shape (units, features), the oldest first. A copy."""
+        return self._fitted().graph()[0]
+
+    @property
+    def unit_ids_(self) -> npt.NDArray[np.int64]:
+        """The name of each unit, which it keeps when others go."""
+        return self._fitted().graph()[1]
+
+    @property
+    def edges_(self) -> npt.NDArray[np.int64]:
+        """The ends of each edge as rows in `units_`, shape (edges, 2)."""
+        return self._fitted().graph()[2][:, :2]
+
+    @property
+    def edge_ages_(self) -> npt.NDArray[np.int64]:
+        """The age of each edge, in inputs that its ends have won."""
+        return self._fitted().graph()[2][:, 2]
+
+    @property
+    def clusters_(self) -> npt.NDArray[np.int64]:
+        """The cluster of each unit, from 0: what edges join is one."""
+        return self._fitted().graph()[3]
+
+    @property
+    def _n_features_out(self) -> int:
+        return len(self._fitted())
+
+    def to_networkx(self) -> Any:
+        """Return units and edges as a graph of networkx, which its writers of files take.
+
+        A unit has the attributes id, cluster, and its features: by their names, or as x0, x1, …
+        An edge has the attribute age.
+        """
+        units, ids, edges, clusters = self._fitted().graph()
+        names = self._names()
+        graph = optional("networkx").Graph()
+        for number, position in enumerate(units.tolist()):
+            known = {"id": int(ids[number]), "cluster": int(clusters[number])}
+            graph.add_node(number, **known, **dict(zip(names, position)))
+        graph.add_edges_from((low, high, {"age": age}) for low, high, age in edges.tolist())
+        return graph
+
+    def to_frame(self) -> Any:
+        """Return the units as a frame of pandas: a row a unit, its id as the index, its cluster in the last column."""
+        pandas = optional("pandas")
+        units, ids, _, clusters = self._fitted().graph()
+        index = pandas.Index(ids, name="id")
+        frame = pandas.DataFrame(units, index=index, columns=self._names())
+        frame["cluster"] = clusters
+        return frame
+
+    def plot(self, ax: Any = None, *, features: tuple[int, int] = (0, 1)) -> Any:
+        """Draw units and edges with matplotlib, by two of the features, and return the axes."""
+        units, _, edges, clusters = self._fitted().graph()
+        return _pictures.plot(ax, units, edges[:, :2], clusters, features)
+
+    def svg(self, *, features: tuple[int, int] = (0, 1)) -> str:
+        """Return a picture of units and edges as SVG, by two of the features."""
+        units, _, edges, clusters = self._fitted().graph()
+        return _pictures.svg(units, edges[:, :2], clusters, features)
+
+    def _repr_mimebundle_(self, **wanted: Any) -> dict[str, str]:
+        """Return what a notebook shows: parameters, and a picture once there are units."""
+        page = self._repr_html_()
+        if self._learner is not None and len(self._learner):
+            page += self.svg()
+        return {"text/plain": repr(self), "text/html": page}
+
+    def _names(self) -> list[str]:
+        named = getattr(self, "feature_names_in_", None)
+        return [f"x{number}" for number in range(self.n_features_in_)] if named is None else list(map(str, named))
+
+    def _begun(self, rows: npt.NDArray[Any]) -> Learner:
+        return Learner(self._kind, rows.shape[1], rows.dtype == np.float32, self.get_params())
+
+    def _like(self, learner: Learner, X: npt.ArrayLike) -> npt.NDArray[Any]:
+        """Return X itself if it has the numbers of the learner, and else a copy that has."""
+        return numbers(self, X, reset=False, dtype=np.float32 if learner.single else np.float64)
+
+    def _learn(self, learner: Learner, rows: npt.NDArray[Any], epochs: int) -> None:
+        chance = check_random_state(self.random_state) if self.shuffle else None
+        total = len(rows) * epochs
+        for epoch in range(epochs):
+            order = None if chance is None else chance.permutation(len(rows)).astype(np.int64)
+            learner.observe(rows, order, self._batch(), self._teller(epoch * len(rows), total))
+
+    def _teller(self, before: int, total: int) -> Callable[[int], object] | None:
+        tell = self.progress
+        if not tell:
+            return None
+        if callable(tell):
+            return lambda done: tell(before + done, total)
+        return lambda done: self._show(before + done, total)
+
+    def _show(self, done: int, total: int) -> None:
+        end = "\n" if done == total else ""
+        print(f"\r{type(self).__name__}: {done} of {total} rows", end=end, file=sys.stderr, flush=True)
+
+    def _epochs(self, rows: int) -> int:
+        asked = self.n_epochs
+        if isinstance(asked, str):
+            if asked != "auto":
+                raise ValueError(f"n_epochs is {asked!r} but has to be 'auto' or a whole number from 1")
+            return max(1, -(-self._inputs_wanted() // rows))
+        if int(asked) != asked or asked < 1:
+            raise ValueError(f"n_epochs is {asked!r} but has to be 'auto' or a whole number from 1")
+        return int(asked)
+
+    def _inputs_wanted(self) -> int:
+        """Return the number of inputs that it takes to grow, and as many again to settle."""
+        return 1
+
+    def _batch(self) -> int:
+        return 1
+
+    def _warn(self, learner: Learner, learnt: int) -> None:
+        """Warn where other units were asked for than there are."""
+
+    def _refuse(self, method: str, given: dict[str, Any]) -> None:
+        if "sample_weight" in given:
+            raise TypeError(
+                f"{type(self).__name__}.{method} takes no sample_weight, because its rows are a stream: draw rows by their weights "
+                "instead, X[rng.choice(len(X), size, p=weight / weight.sum())]"
+            )
+        if given:
+            raise TypeError(f"{type(self).__name__}.{method} got an unexpected keyword argument {next(iter(given))!r}")
 
     def _fitted(self) -> Learner:
         if self._learner is None:
             raise NotFittedError(f"this {type(self).__name__} has learnt nothing yet: call fit or partial_fit first")
         return self._learner
 
-    @property
-    def units_(self) -> npt.NDArray[Any]:
-        """The prototypes, a row a unit, the oldest first. A copy."""
-        return self._fitted().units()
+    def __sklearn_is_fitted__(self) -> bool:
+        return self._learner is not None
 
-    @property
-    def unit_ids_(self) -> npt.NDArray[np.int64]:
-        """The name of each unit, which it keeps when others go."""
-        return self._fitted().ids()
+    def __sklearn_tags__(self) -> Any:
+        tags = super().__sklearn_tags__()
+        tags.transformer_tags.preserves_dtype = ["float64", "float32"]
+        return tags
 
-    @property
-    def edges_(self) -> npt.NDArray[np.int64]:
-        """The ends of each edge, as rows in `units_`."""
-        return self._fitted().edges()[:, :2]
-
-    @property
-    def edge_ages_(self) -> npt.NDArray[np.int64]:
-        """The age of each edge, in inputs that its ends have won."""
-        return self._fitted().edges()[:, 2]
-
-    @property
-    def clusters_(self) -> npt.NDArray[np.int64]:
-        """The cluster of each unit: what edges join is one."""
-        return self._fitted().clusters()
-
-    @property
-    def n_features_in_(self) -> int:
-        """The number of features of an input."""
-        return self._fitted().dimension
-
-    def to_networkx(self) -> Any:
-        """Return units and edges as a graph of networkx."""
-        import networkx  # type: ignore[import-untyped, unused-ignore]
-
-        graph = networkx.Graph()
-        for number, position in enumerate(self.units_):
-            graph.add_node(number, position=tuple(position.tolist()))
-        edges = self.edges_.tolist()
-        graph.add_edges_from((low, high, {"age": age}) for (low, high), age in zip(edges, self.edge_ages_.tolist()))
-        return graph
-
-    def __repr__(self) -> str:
-        given = ", ".join(f"{name}={value!r}" for name, value in self.get_params().items())
-        return f"{type(self).__name__}({given})"
+    def _more_tags(self) -> dict[str, Any]:
+        """Say the same to scikit-learn before 1.6."""
+        return {"preserves_dtype": [np.float64, np.float32]}
 
     def __getstate__(self) -> dict[str, Any]:
-        state = dict(self.__dict__)
+        state = dict(super().__getstate__())
         learner = state.pop("_learner", None)
         if learner is not None:
             state["_saved"] = (learner.single, learner.saved())
@@ -160,18 +290,80 @@ class _Quantizer:
     def __setstate__(self, state: dict[str, Any]) -> None:
         state = dict(state)
         saved = state.pop("_saved", None)
-        self.__dict__.update(state)
+        super().__setstate__(state)
         if saved is not None:
             self._learner = Learner.resumed(self._kind, *saved)
 
 
-class GNG(_Quantizer):
-    """Growing neural gas (Fritzke 1995); with `utility_threshold`, GNG-U (Fritzke 1997).
-
-    The defaults are those of Fritzke 1995. Without `max_units` it grows for as long as it learns.
-    """
+class _Grower(_Quantizer):
+    """What the growing neural gases have in common."""
 
     _kind = "gng"
+    max_units: int | None
+    growth_period: int
+    batch_size: int | None
+
+    def _inputs_wanted(self) -> int:
+        return 1 if self.max_units is None else 2 * self.growth_period * self.max_units
+
+    def _batch(self) -> int:
+        asked = self.batch_size
+        if asked is None:
+            return 1
+        if int(asked) != asked or not 1 <= asked <= 65_536:
+            raise ValueError(f"batch_size is {asked!r} but has to be None or a whole number from 1 to 65536")
+        return int(asked)
+
+
+class GNG(_Grower):
+    """Growing neural gas (Fritzke 1995); with `utility_threshold`, GNG-U (Fritzke 1997).
+
+    Parameters
+    ----------
+    max_units : int or None
+        The most units, at least 2. Without it the network grows for as long as it learns.
+    growth_period : int
+        λ: a unit is added every so many inputs.
+    winner_rate, neighbour_rate : float
+        ε_b and ε_n: the part of the way to an input, 0 to 1, that the nearest unit and its neighbours move.
+    max_age : int
+        a_max: the age above which edges go, in inputs that one of their ends has won.
+    split_factor, decay : float
+        α and d: the factors on errors where a unit is added, and after each input.
+    error : {"squared", "absolute", "relative"}
+        What the nearest unit is charged: ‖x − w‖², ‖x − w‖ or ‖x − w‖ / ‖x‖.
+    order : {"fritzke", "mslst"}
+        The order of the parts of a step.
+    utility_threshold : float or None
+        k of GNG-U: the unit of least utility goes if the largest error is above k times that utility.
+    removal : {"every_input", "when_full"}
+        When units of little utility go.
+    n_epochs : int or "auto"
+        How often `fit` goes through X. "auto" goes on until there were inputs enough to grow `max_units`, and as many
+        again to settle: 2 · max_units · growth_period.
+    shuffle : bool
+        Whether `fit` takes the rows in an order drawn anew in each epoch. Sorted rows want it.
+    random_state : int, RandomState or None
+        The seed of that order.
+    batch_size : int or None
+        The rows whose nearest units are found at once, by products: faster from some 50 features on, the units almost the
+        same. None finds them row by row.
+    compute_labels : bool
+        Whether `fit` ends with `labels_`.
+    progress : bool or callable
+        True shows the rows learnt on standard error; a function is called with the rows learnt and the rows in all.
+
+    Attributes
+    ----------
+    units_, unit_ids_, edges_, edge_ages_, clusters_, labels_, n_features_in_, feature_names_in_
+
+    Warns
+    -----
+    ConvergenceWarning
+        If `fit` ends with fewer units than `max_units`.
+
+    The defaults are those of Fritzke 1995.
+    """
 
     def __init__(
         self,
@@ -187,6 +379,12 @@ class GNG(_Quantizer):
         order: str = "fritzke",
         utility_threshold: float | None = None,
         removal: str = "every_input",
+        n_epochs: int | str = "auto",
+        shuffle: bool = False,
+        random_state: Any = None,
+        batch_size: int | None = None,
+        compute_labels: bool = True,
+        progress: Progress = False,
     ) -> None:
         self.max_units = max_units
         self.growth_period = growth_period
@@ -199,19 +397,44 @@ class GNG(_Quantizer):
         self.order = order
         self.utility_threshold = utility_threshold
         self.removal = removal
+        self.n_epochs = n_epochs
+        self.shuffle = shuffle
+        self.random_state = random_state
+        self.batch_size = batch_size
+        self.compute_labels = compute_labels
+        self.progress = progress
+
+    def _warn(self, learner: Learner, learnt: int) -> None:
+        found, asked = len(learner), self.max_units
+        if asked is None or found >= asked or self.utility_threshold is not None:
+            return
+        wanted = self.growth_period * asked
+        why = (
+            f"{learnt} inputs are too few for a unit every {self.growth_period}: raise n_epochs or lower growth_period"
+            if learnt < wanted
+            else "X has too few different rows, or max_age is too low for so many units"
+        )
+        warnings.warn(f"GNG has {found} of the {asked} units of max_units: {why}", ConvergenceWarning, stacklevel=3)
 
 
-class EquilibriumGNG(_Quantizer):
+class EquilibriumGNG(_Grower):
     """A growing neural gas that grows only while its mean error is above a threshold.
 
-    The defaults are those of MSLST; `gate="rate"` is Provost's code for SODA.
-    """
+    Parameters
+    ----------
+    threshold : float
+        The mean error above which it grows, in units of `error`: squared units of the features by default.
+    gate : {"mean_error", "rate"}
+        What is compared with it: the mean of the units' errors, as in MSLST, or that times 1 − decay, as in Provost's
+        code for SODA.
 
-    _kind = "gng"
+    The other parameters are those of `GNG`, and the defaults those of MSLST; `max_units` is a bound, which need not be
+    reached.
+    """
 
     def __init__(
         self,
-        threshold: float,
+        threshold: float = 1.0,
         *,
         gate: str = "mean_error",
         max_units: int | None = None,
@@ -223,6 +446,12 @@ class EquilibriumGNG(_Quantizer):
         decay: float = 0.995,
         error: str = "squared",
         order: str = "mslst",
+        n_epochs: int | str = "auto",
+        shuffle: bool = False,
+        random_state: Any = None,
+        batch_size: int | None = None,
+        compute_labels: bool = True,
+        progress: Progress = False,
     ) -> None:
         self.threshold = threshold
         self.gate = gate
@@ -235,12 +464,34 @@ class EquilibriumGNG(_Quantizer):
         self.decay = decay
         self.error = error
         self.order = order
+        self.n_epochs = n_epochs
+        self.shuffle = shuffle
+        self.random_state = random_state
+        self.batch_size = batch_size
+        self.compute_labels = compute_labels
+        self.progress = progress
 
 
 class SOINN(_Quantizer):
     """One layer of a SOINN (Shen and Hasegawa 2006), which chooses the number of its units itself.
 
-    The defaults are those of the paper; max_age=20 with denoising="low_rate" serves noisy streams.
+    Parameters
+    ----------
+    max_age : int
+        The age above which edges go.
+    period : int
+        λ: every so many inputs, units are inserted and noise is removed.
+    insertion : {"unless_one_grew", "unless_all_grew", "off"}
+        When an inserted unit is kept.
+    denoising : {"few_wins", "low_rate", "off"}, noise_factor : float
+        Which units count as noise, and c, 0 to 1: the larger, the more units do.
+    threshold : float or None
+        A constant distance beyond which an input is new; without it each unit has its own.
+    n_epochs : int or "auto"
+        How often `fit` goes through X; "auto" is once.
+
+    `shuffle`, `random_state`, `compute_labels` and `progress` are those of `GNG`. The defaults are those of the paper;
+    max_age=20 with denoising="low_rate" serves noisy streams.
     """
 
     _kind = "soinn"
@@ -254,6 +505,11 @@ class SOINN(_Quantizer):
         denoising: str = "few_wins",
         noise_factor: float = 1.0,
         threshold: float | None = None,
+        n_epochs: int | str = "auto",
+        shuffle: bool = False,
+        random_state: Any = None,
+        compute_labels: bool = True,
+        progress: Progress = False,
     ) -> None:
         self.max_age = max_age
         self.period = period
@@ -261,26 +517,8 @@ class SOINN(_Quantizer):
         self.denoising = denoising
         self.noise_factor = noise_factor
         self.threshold = threshold
-
-
-def _numbers(X: npt.ArrayLike) -> npt.NDArray[Any]:
-    """Return X itself if it is an array of float32 or float64, and else a copy in float64."""
-    single = type(X) is np.ndarray and X.dtype == np.float32
-    return _of_type(X, np.float32 if single else np.float64)
-
-
-def _like(learner: Learner, X: npt.ArrayLike) -> npt.NDArray[Any]:
-    """Return X itself if it has the numbers of the learner, and else a copy that has."""
-    return _of_type(X, np.float32 if learner.single else np.float64)
-
-
-def _of_type(X: npt.ArrayLike, dtype: Any) -> npt.NDArray[Any]:
-    if type(X) is np.ndarray and X.dtype == dtype and X.flags.aligned:
-        return X
-    try:
-        converted = np.asarray(X)
-        if converted.dtype.kind not in "biufO":
-            raise TypeError(f"its type is {converted.dtype}")
-        return np.require(converted, dtype, "A")
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"X has to be an array of numbers: {error}") from error
+        self.n_epochs = n_epochs
+        self.shuffle = shuffle
+        self.random_state = random_state
+        self.compute_labels = compute_labels
+        self.progress = progress

@@ -8,8 +8,9 @@
 >>> learned = tolman.learn(maze, "mslst-better", seed=1)
 """
 
+from tolman_quantizers import GNG, SOINN, EquilibriumGNG, NotFittedError
+
 from ._planners import Path, shortest_path
-from ._quantizers import GNG, SOINN, EquilibriumGNG, NotFittedError
 from ._tolman import BumpMap, Map, Maze, Robot, learn, map_log, systems
 
 __all__ = [

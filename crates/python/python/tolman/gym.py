@@ -26,18 +26,25 @@ class MazeEnv(gymnasium.Env[_Observation, Any]):
     ahead, and `compass`, the cosine and sine of the heading. Each step costs 1, also the last.
     The episode ends at the goal, and is cut off after `max_steps`: by default as many, for the
     length of the corridors, as MSLST's paper allows.
+
+    `maze` is a maze, or the name of a family as `Maze.generate` takes it: then each episode has
+    another maze, of 5 by 5 cells. `reset(options={"maze": maze})` changes it in between. An
+    environment can be copied and pickled in the midst of an episode, and goes on alike.
     """
 
     metadata: dict[str, Any] = {"render_modes": []}
 
-    def __init__(self, maze: Maze | None = None, *, start: str = "random", noise: bool = True, max_steps: int | None = None) -> None:
-        self.maze = Maze.generate("perfect", 5, 5, seed=1) if maze is None else maze
+    def __init__(
+        self, maze: Maze | str | None = None, *, start: str = "random", noise: bool = True, max_steps: int | None = None
+    ) -> None:
+        if max_steps is not None and max_steps < 1:
+            raise ValueError(f"max_steps is {max_steps} but has to be at least 1")
+        self.family = maze if isinstance(maze, str) else None
+        self.maze = Maze.generate(self.family or "perfect", 5, 5, seed=1) if maze is None or isinstance(maze, str) else maze
         self.start = start
         self.noise = noise
-        self._robot = Robot(self.maze, seed=0, start=start, noise=noise)
-        self.max_steps = self._robot.step_limit if max_steps is None else max_steps
-        if self.max_steps < 1:
-            raise ValueError(f"max_steps is {max_steps} but has to be at least 1")
+        self._steps_asked = max_steps
+        self._begin(seed=0)
         self.action_space = spaces.Box(-1.0, 1.0, (2,), np.float32)
         self.observation_space = spaces.Dict(
             {
@@ -47,11 +54,25 @@ class MazeEnv(gymnasium.Env[_Observation, Any]):
         )
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[_Observation, dict[str, Any]]:
-        """Put the robot down again. With a seed, what follows repeats."""
+        """Put the robot down again. With a seed, what follows repeats.
+
+        `options` may have "maze": a Maze for this episode and those after it, or the name of a family.
+        """
         super().reset(seed=seed)
+        for name, value in (options or {}).items():
+            if name != "maze" or not isinstance(value, (Maze, str)):
+                raise ValueError(f"options has {name!r}: {value!r}, but may only have 'maze': a Maze or the name of a family")
+            self.family = value if isinstance(value, str) else None
+            self.maze = self.maze if isinstance(value, str) else value
         chance = int(self.np_random.integers(2**63))
-        self._robot = Robot(self.maze, seed=chance, start=self.start, noise=self.noise)
+        if self.family is not None:
+            self.maze = Maze.generate(self.family, 5, 5, seed=chance)
+        self._begin(chance)
         return self._observed(), self._known()
+
+    def _begin(self, seed: int) -> None:
+        self._robot = Robot(self.maze, seed=seed, start=self.start, noise=self.noise)
+        self.max_steps = self._robot.step_limit if self._steps_asked is None else self._steps_asked
 
     def step(self, action: Any) -> tuple[_Observation, float, bool, bool, dict[str, Any]]:
         """Turn and drive for one step."""
@@ -77,4 +98,10 @@ class MazeEnv(gymnasium.Env[_Observation, Any]):
         return {"pose": self._robot.pose, "bump": self._robot.bump}
 
 
-gymnasium.register(id="tolman/Maze-v0", entry_point="tolman.gym:MazeEnv")
+def register() -> None:
+    """Let `gymnasium.make` know the environment: called on import, and by gymnasium itself."""
+    if "tolman/Maze-v0" not in gymnasium.registry:
+        gymnasium.register(id="tolman/Maze-v0", entry_point="tolman.gym:MazeEnv")
+
+
+register()

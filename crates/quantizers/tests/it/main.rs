@@ -13,3 +13,4 @@ mod saving;
 mod search;
 mod soinn;
 mod streams;
+mod sweep;
