@@ -346,7 +346,7 @@ class GNG(_Grower):
     random_state : int, RandomState or None
         The seed of that order.
     batch_size : int or None
-        The rows whose nearest units are found at once, by products: faster from some 50 features on, the units almost the
+        The rows whose nearest units are found at once, by products: a little faster with many units, which are almost the
         same. None finds them row by row.
     compute_labels : bool
         Whether `fit` ends with `labels_`.

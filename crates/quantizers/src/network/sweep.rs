@@ -128,8 +128,9 @@ fn compare_group<S: Scalar, F: Fold<S>, const R: usize>(
 }
 
 impl<S: Scalar> Network<S> {
-    /// Appends to `found` the unit nearest to each row of `rows`, which holds inputs in turn. The units and distances are those of [`nearest`](Self::nearest), to the bit, but each
-    /// unit is read once for many inputs: with many features that is several times as fast.
+    /// Appends to `found` the unit nearest to each row of `rows`, which holds inputs in turn. Units
+    /// and distances are those of [`nearest`](Self::nearest), to the bit, but each unit is read
+    /// once for many inputs. With many features that is several times as fast.
     ///
     /// # Errors
     /// If `rows` is not a whole number of inputs, one of them is invalid, or there are no units.
