@@ -46,7 +46,6 @@ pub struct Mouse<'a, const N: usize = MAZE, C: CellTimes = [u16; 12]> {
 
 /// Knowledge of where the mouse is.
 #[derive(Clone, Debug)]
-#[expect(clippy::large_enum_variant, reason = "there is no heap to put it on")]
 enum Place<const N: usize> {
     Known {
         cell: Cell,

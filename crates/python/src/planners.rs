@@ -21,7 +21,7 @@ pub(crate) fn cheapest_path<'py>(
     // What networkx's own searches use; its mappings are written in Python.
     let inner = |name: &str| {
         let found = graph.getattr(name).ok();
-        found.filter(|found| found.is_instance_of::<PyDict>())
+        found.filter(PyAnyMethods::is_instance_of::<PyDict>)
     };
     let adjacent = inner("_adj").unwrap_or_else(|| graph.clone());
     for (name, node) in [("source", source), ("target", target)] {

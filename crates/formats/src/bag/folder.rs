@@ -12,9 +12,8 @@ const ENDINGS: [&str; 3] = [".mcap", ".db3", ".bag"];
 
 /// Returns the files of a folder that is a bag, in order, and how each of their messages is packed.
 pub(crate) fn files(folder: &Path) -> io::Result<(Vec<PathBuf>, String)> {
-    let metadata = match input::text(&folder.join(METADATA)) {
-        Ok(text) => text,
-        Err(_) => return Ok((listed(folder)?, String::new())),
+    let Ok(metadata) = input::text(&folder.join(METADATA)) else {
+        return Ok((listed(folder)?, String::new()));
     };
     let value = |name: &str| {
         let mut lines = metadata

@@ -11,7 +11,7 @@ use crate::unpack::{invalid, unpack};
 pub(super) const MAGIC: &[u8] = b"SQLite format 3\0";
 
 /// Longest row that is accepted, bytes.
-const LONGEST: u64 = 1 << 26;
+const LONGEST: usize = 1 << 26;
 
 /// Maximum depth of a table's tree.
 const DEEPEST: u32 = 20;
@@ -79,7 +79,7 @@ pub(super) fn read(source: impl Read + Seek, packed: &str, take: &mut Take<'_>) 
         let data = match packed {
             "" => data,
             format => {
-                unpacked = unpack(format, data, LONGEST)?;
+                unpacked = unpack(format, data, LONGEST as u64)?;
                 &unpacked
             }
         };
@@ -154,7 +154,9 @@ impl<R: Read + Seek> Database<R> {
         Ok(Self {
             source,
             page,
-            usable: page as usize - usize::from(head[20]),
+            usable: usize::try_from(page)
+                .unwrap_or(0)
+                .saturating_sub(usize::from(head[20])),
             pages: size.div_ceil(page),
         })
     }
@@ -221,8 +223,8 @@ impl<R: Read + Seek> Database<R> {
 
     /// Returns the whole of a row that may go on in pages of its own.
     fn payload(&mut self, size: i64, mut cell: Bytes<'_>) -> io::Result<Vec<u8>> {
-        let size = u64::try_from(size).ok().filter(|size| *size <= LONGEST);
-        let size = size.ok_or_else(|| invalid("a row that is too long"))? as usize;
+        let size = usize::try_from(size).ok().filter(|size| *size <= LONGEST);
+        let size = size.ok_or_else(|| invalid("a row that is too long"))?;
         let most = self.usable.saturating_sub(35);
         let least = (self.usable.saturating_sub(12) * 32 / 255).saturating_sub(23);
         let here = match size <= most {
@@ -259,7 +261,10 @@ fn row(payload: &[u8]) -> io::Result<Vec<Value<'_>>> {
         let kind = head.number()?;
         row.push(match kind {
             0 => Value::Null,
-            1..=4 => Value::Number(values.signed(kind as usize)?),
+            1 => Value::Number(values.signed(1)?),
+            2 => Value::Number(values.signed(2)?),
+            3 => Value::Number(values.signed(3)?),
+            4 => Value::Number(values.signed(4)?),
             5 => Value::Number(values.signed(6)?),
             6 => Value::Number(values.signed(8)?),
             7 => {

@@ -28,7 +28,7 @@ enum State<R: BufRead> {
     /// Before a block, or the index.
     Block(R),
     /// Within a block.
-    Inside(Lzma2Reader<Counted<R>>),
+    Inside(Box<Lzma2Reader<Counted<R>>>),
 }
 
 /// A source that counts what was read of it.
@@ -96,7 +96,7 @@ impl<R: BufRead> Xz<R> {
         let source = Counted { source, read: 0 };
         let inside = Lzma2Reader::new_mem_limit(source, size, MOST_MEMORY, None);
         let inside = inside.map_err(io::Error::other)?;
-        Ok(State::Inside(inside))
+        Ok(State::Inside(Box::new(inside)))
     }
 }
 

@@ -48,7 +48,7 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
                     expected,
                 }));
             };
-            let open = !(walls as u8) & 0xf;
+            let open = (!walls & 0xf) as u8;
             cells.push(Sides { open, place });
             place = place.right(1);
         }

@@ -399,7 +399,7 @@ fn binary_mazes_come_back_without_the_mouses_marks() {
         assert_eq!(read(&text).unwrap().maze, maze);
     }
     assert_eq!(
-        tolman_maze::maz_text(DRAWN.repeat(9)[..256].as_bytes()),
+        tolman_maze::maz_text(&DRAWN.repeat(9).as_bytes()[..256]),
         None
     );
 }
