@@ -15,7 +15,8 @@ const FOLDER: &str = "crates/mouse-c";
 /// The header, in the folder of the package.
 const HEADER: &str = "include/tolman_mouse.h";
 
-/// Checks the package's form, lints and tests it, and compares its header with what cbindgen writes.
+/// Checks the package's form, lints and tests it, and compares its header with what cbindgen
+/// writes.
 ///
 /// # Errors
 /// If a check fails.

@@ -9,7 +9,7 @@ use tolman_arena::pioneer::{CORRIDOR_WIDTH, calibrated, with_sensor_noise};
 use tolman_arena::registry::{Registry, RobotFailure, SystemEntry};
 use tolman_geom::Pose;
 use tolman_robot::{
-    Landmark, LaserMeasures, LaserSensing, MapView, Robot, RobotMeasures, SensesLandmarks,
+    Goal, Landmark, LaserMeasures, LaserSensing, MapView, Robot, RobotMeasures, SensesLandmarks,
     StepMeasures, Task, TurnTranslate,
 };
 use tolman_sim::robots::LaserPioneer;
@@ -82,8 +82,12 @@ fn explored(system: &dyn SystemEntry, size: f64) -> (Vec<Pose>, MapView) {
     };
     let put = system.facts().for_robot.unwrap();
     let mut pilot = put(&measures, Box::new(magnified), 3).unwrap();
+    let task = match system.baseline() {
+        Some(_) => Task::Reach(Goal::Landmark(Landmark::Goal)),
+        None => Task::Explore,
+    };
     for _ in 0..ACTIONS {
-        pilot.act(Task::Explore).unwrap();
+        pilot.act(task).unwrap();
     }
     let path = robot.borrow().path().to_vec();
     (path, pilot.map())
@@ -100,7 +104,7 @@ fn a_world_and_a_robot_scaled_by_a_power_of_two_make_the_same_run() {
     for system in able {
         let name = system.name();
         let (path, map) = explored(*system, 1.0);
-        assert!(path.len() > ACTIONS as usize, "{name} moves");
+        assert!(path.len() > 10, "{name} moves");
         for size in [0.125, 0.5, 4.0] {
             let told = format!("{name}, {size} times as large");
             let (scaled_path, scaled_map) = explored(*system, size);

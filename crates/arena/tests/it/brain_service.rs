@@ -115,7 +115,7 @@ fn bad_input_stops_the_robot_and_is_named_by_its_line() {
 
 #[test]
 fn a_system_without_its_senses_refuses() {
-    let system = Registry::current().system("mslst-better").unwrap();
+    let system = Registry::current().system("mslst").unwrap();
     let mut blind = measures();
     blind.compass_error = None;
     let heard = Heard::default();

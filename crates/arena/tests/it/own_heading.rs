@@ -93,10 +93,10 @@ fn a_map_is_learned_without_a_compass() {
     let exact: Told = |heading, _| Some(heading);
     let none: Told = |_, _| None;
     let from_anywhere: Told = |heading, _| Some(heading.turned(2.2));
-    // A gyro that is 6° off after a minute.
+    // A gyro that drifts by 1° a minute.
     let drifting: Told = |heading, steps| {
         let minutes = f64::from(steps) / 600.0;
-        Some(heading.turned((6.0 * minutes).to_radians()))
+        Some(heading.turned(minutes.to_radians()))
     };
     let expected = learned(exact, 3);
     assert_eq!(expected.2, None);

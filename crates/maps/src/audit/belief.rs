@@ -316,7 +316,18 @@ mod tests {
         let belief = Belief::new(&links, &chain, &config, &by_odometry);
         let lasts = [&[0][..], &[1], &[0, 2], &[0, 1, 2]].map(|group| belief.can_last(group));
         assert_eq!(lasts, [false, true, true, true]);
+        // One drive of closures is one run.
         let broad = [&[0][..], &[0, 1], &[2]].map(|group| belief.is_broad(group));
-        assert_eq!(broad, [false, true, false]);
+        assert_eq!(broad, [false, false, false]);
+    }
+
+    #[test]
+    fn closures_that_contradict_each_other_are_no_run() {
+        let config = AuditConfig::standard();
+        let graph = straight(1, 1);
+        let chain = Chain::of(&graph, &config).unwrap();
+        let links = links(&graph, &chain, &config);
+        let belief = Belief::new(&links, &chain, &config, &[ByOdometry::Silent; 2]);
+        assert!(belief.is_broad(&[0, 1]));
     }
 }

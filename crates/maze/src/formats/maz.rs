@@ -8,7 +8,7 @@ use super::sides::{self, Sides};
 use super::{Format, MazeError, Parsed, WriteError, expect_classic};
 use crate::{Cell, Grid, Maze};
 
-/// Returns the side of a maze of so many bytes, cells.
+/// Returns the side of a maze of this number of bytes, cells.
 const fn side(bytes: usize) -> Option<u16> {
     match bytes {
         256 => Some(16),
@@ -22,7 +22,7 @@ const fn side(bytes: usize) -> Option<u16> {
 #[must_use]
 pub fn maz_text(bytes: &[u8]) -> Option<String> {
     side(bytes.len())?;
-    // No text holds so many control characters.
+    // A text holds few control characters.
     let controls = bytes
         .iter()
         .filter(|byte| !matches!(byte, 0x20..=0x7e))

@@ -121,13 +121,8 @@ fn drawings() {
     );
     check(
         "+===+===+\n| S   G |\n+===+===+\n",
-        "line 1, column 2: found '=': expected `---` or three blanks between two posts, since a \
-         cell is three characters wide, as in `+---+---+`",
-    );
-    check(
-        "+-+-+\n|S G|\n+-+-+\n",
-        "line 1, column 3: found '+': expected `---` or three blanks between two posts, since a \
-         cell is three characters wide, as in `+---+---+`",
+        "line 1, column 2: found '=': expected `---`, three blanks or ` . ` between two posts, all \
+         as far apart as the first two, as in `+---+---+`",
     );
     check(
         "# Blocks\n#########\n#S     G#\n#########",

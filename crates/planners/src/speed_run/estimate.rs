@@ -46,7 +46,7 @@ mod tests {
     use crate::speed_run::{Slalom, SlalomTurn, SlalomTurns, SpeedRunConfig, SpeedRunConfigError};
     use crate::{Passages, Unknown};
 
-    /// Times of moves that last very differently, too. Turns take so many times their least.
+    /// Times of moves that last very differently, too. Each turn takes its factor times its least.
     fn times(
         factors: [f64; 6],
         cell_mm: f64,

@@ -16,9 +16,9 @@ pub(super) const NEVER: u32 = 1 << 30;
 /// `N` cells, `N` ≤ 32.
 ///
 /// A run ends in the middle of a goal cell, coming along a straight. It is the best of all that
-/// consist of straights, diagonals and [slalom turns](super::Slalom), in whole milliseconds. `C` says
-/// how much memory its times take; a chip with little of it has [smaller ones](CellTimes). A larger
-/// `N` does not compile:
+/// consist of straights, diagonals and [slalom turns](super::Slalom), in whole milliseconds. `C`
+/// says how much memory its times take; a chip with little of it has [smaller ones](CellTimes). A
+/// larger `N` does not compile:
 ///
 /// ```compile_fail
 /// # use tolman_planners::speed_run::SpeedRunMap;

@@ -108,7 +108,7 @@ impl RunStep {
     /// (`RobotBase::FastAction`), and how often it is written: a straight of three cells is `SSS`,
     /// one with an odd number of half cells has `s` for each of them.
     ///
-    /// `S` is a cell straight on, `s` half a cell, and `w` half a cell's diagonal. Turns to the left
+    /// `S` is a cell straight on, `s` half a cell, `w` half a cell's diagonal. Turns to the left
     /// and right are `z` and `c` for F45, `q` and `Q` for F90, `a` and `d` for F135. They are `u`
     /// and `U` for F180, `p` and `P` for FV90, `L` and `R` for FS90. F45 and F135 out of a diagonal
     /// are `Z`, `C`, `A` and `D`.

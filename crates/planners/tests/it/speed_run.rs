@@ -107,7 +107,8 @@ fn factors() -> impl Strategy<Value = [f64; 6]> {
     prop::array::uniform6(1.0..3.0)
 }
 
-/// Returns turns that take so many times their least. A mouse does not make those of 2.7 or more.
+/// Returns turns that take their least times these `factors`. A mouse does not make those of 2.7
+/// or more.
 fn turns(config: &SpeedRunConfig, factors: [f64; 6]) -> SlalomTurns {
     let turn = |number: usize| {
         let least = Slalom::ALL[number].least_cells() * config.cell_mm / config.turn_speed_mm_s;

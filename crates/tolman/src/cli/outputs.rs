@@ -305,7 +305,7 @@ mod tests {
         ("learn --system cpm other --out new", "maze"),
         ("learn --system cpm --world other --out new", "world"),
         ("man", ""),
-        ("map --log other --out new", "log"),
+        ("map --log other --out new", "log closures list"),
         ("map check other --maze other", "file maze_file"),
         ("map check map other", "maze"),
         ("map check other --world other", "world"),

@@ -57,13 +57,14 @@ Examples:
 pub(super) struct Arguments {
     #[command(flatten)]
     maze: MazePath,
-    /// File with the mouse's driving parameters: times, speeds, accelerations, cell size. Given several times, each of
-    /// the mice races
+    /// File with the mouse's driving parameters: times, speeds, accelerations, cell size. Given
+    /// several times, each of the mice races
     #[arg(long, value_name = "PARAMS.toml")]
     mouse: Vec<PathBuf>,
     #[command(flatten)]
     marks: Marks,
-    /// Time and check this way instead of exploring: F, L, R and B for each cell, or a letter for each move
+    /// Time and check this way instead of exploring: F, L, R and B for each cell, or a letter for
+    /// each move
     #[arg(long, value_name = "LETTERS", conflicts_with_all = ["live", "svg", "trace", "replay"])]
     route: Option<String>,
     /// How the run's moves are written

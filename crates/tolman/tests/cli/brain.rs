@@ -170,8 +170,8 @@ fn measures_that_fit_no_robot_are_refused_before_anything_moves() {
             "it needs to see from",
         ),
         (
-            MEASURES.replace("compass_error = 0.07\n", ""),
-            "needs `compass_error`",
+            MEASURES.replace("odometry_error = 0.05\n", ""),
+            "needs `odometry_error`",
         ),
         (MEASURES.replace("beams", "rays"), "unknown field `rays`"),
     ];

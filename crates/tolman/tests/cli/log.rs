@@ -128,7 +128,7 @@ fn a_map_s_graph_is_audited_and_taken_back() {
     ];
     let graph = "EDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n";
     fs::write(folder.join("other.g2o"), graph).unwrap();
-    tolman_in(&folder, &other).refused(2, &["2 poses", "graph.g2o"]);
+    tolman_in(&folder, &other).failed(2, &["2 poses", "graph.g2o"]);
 }
 
 #[test]

@@ -102,8 +102,8 @@ impl BetterNavigator {
         self.belief.certainty(&map.standpoints, within)
     }
 
-    /// Returns the probability that the robot is at the place of its likeliest standpoint; 0 if that
-    /// is on the way between places. O(standpoints believed in · places).
+    /// Returns the probability that the robot is at the place of its likeliest standpoint; 0 if
+    /// that is on the way between places. O(standpoints believed in · places).
     fn at_its_place(&self) -> f64 {
         let corridors = self.maps.learned().corridors();
         let place = self.likeliest().and_then(|at| corridors.at(at));
