@@ -198,8 +198,8 @@ impl Lattice {
         ways.into_iter().flatten().collect()
     }
 
-    /// Paints a random tree of corridors and one more, with a loop: the robot starts in a corner and
-    /// goes to the opposite one.
+    /// Paints a random tree of corridors and one more, with a loop: the robot starts in a corner
+    /// and goes to the opposite one.
     fn tree(&self, plan: &mut Plan, rng: &mut ChaCha8Rng, half: fn(&mut ChaCha8Rng) -> f64) {
         let mut is_reached = vec![false; self.nodes.len()];
         let mut way = vec![0_usize];

@@ -15,8 +15,8 @@
 //! 5. [`Avoid`]: stop before a wall, and edge away from one beside.
 //! 6. [`Settle`], which is ours: make a turn to and fro die out, so that every action ends.
 //!
-//! Who has no compass, or one that errs, has a [`HeadingFilter`], which is ours: it tells the heading
-//! from the wheels and the directions of the walls.
+//! Who has no compass, or one that errs, has a [`HeadingFilter`], which is ours: it tells the
+//! heading from the wheels and the directions of the walls.
 //!
 //! The robot of another paper, CPM's e-puck, has its own layers in [`epuck`]. Those of a robot that
 //! drives until something is near are in [`wander`].

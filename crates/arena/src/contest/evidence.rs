@@ -181,8 +181,8 @@ impl Evidence {
     /// stop; `None` if it is right.
     ///
     /// The [judgement](Self::judge) decides. In a world of free walls a map is also right if its
-    /// places lie where they truly are, and its places, ways and rooms cover the floor: a chart needs no
-    /// graph of passages. O(cells · points of the map).
+    /// places lie where they truly are, and its places, ways and rooms cover the floor: a chart
+    /// needs no graph of passages. O(cells · points of the map).
     pub fn complaint(&self, map: &MapView, course: &Course, rule: PlaceRule) -> Option<String> {
         let complaint = self
             .judge(map, &TrueGraph::of_course(course, rule))

@@ -8,8 +8,8 @@ mod straight_walls;
 
 use straight_walls::{StraightWall, straight_walls};
 
-/// A robot's own heading, from its wheels, the directions of the walls and, if it has one, a compass
-/// or a gyro.
+/// A robot's own heading, from its wheels, the directions of the walls and, if it has one, a
+/// compass or a gyro.
 ///
 /// A Kalman filter of the heading and of the compass's error, which wanders as that of a gyro does.
 /// Walls are landmarks at infinity: a straight wall is one of the known directions, or a new one.

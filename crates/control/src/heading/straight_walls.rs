@@ -23,8 +23,8 @@ const FEWEST: usize = 5;
 /// Returns the straight walls that the beams show together: runs of neighbouring ends near one
 /// line. O(beams · log beams).
 ///
-/// Source: T. Pavlidis and S. L. Horowitz, *Segmentation of Plane Curves*, 1974 (split); the line of
-/// a run is that of total least squares.
+/// Source: T. Pavlidis and S. L. Horowitz, *Segmentation of Plane Curves*, 1974 (split); the line
+/// of a run is that of total least squares.
 pub(super) fn straight_walls(scan: &Scan) -> Vec<StraightWall> {
     let beams = scan.ranges.len();
     let mut ends: Vec<Option<End>> = (0..)

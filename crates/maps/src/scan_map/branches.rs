@@ -183,8 +183,9 @@ impl Branches {
         }
     }
 
-    /// Merges knots that are one place: joined by a way and less than `apart` from each other, m, or
-    /// joined by a way everywhere at least `open` off the walls, m. A ring less than `apart` long goes.
+    /// Merges knots that are one place: joined by a way and less than `apart` from each other, m,
+    /// or joined by a way everywhere at least `open` off the walls, m. A ring less than `apart`
+    /// long goes.
     pub(super) fn merge(&mut self, apart: f64, open: f64) {
         while let Some(link) = self.shortest(|graph, degrees, branch| {
             let [a, b] = branch.ends;

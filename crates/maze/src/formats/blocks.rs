@@ -1,4 +1,5 @@
-//! [`Format::Blocks`](super::Format::Blocks): grids of walls and floors, one or two characters each.
+//! [`Format::Blocks`](super::Format::Blocks): grids of walls and floors, one or two characters
+//! each.
 
 use alloc::string::String;
 use alloc::vec::Vec;
@@ -7,8 +8,8 @@ use super::lines::{Line, Lines};
 use super::{CLASSIC_START, Format, MazeError, MazeFault, Parsed, WriteError};
 use crate::{Cell, CheckError, Direction, Grid, Maze};
 
-/// Returns whether a grid begins with these lines: one all of wall above one of walls and floors, or
-/// the head of a map of moving-AI. A line of `#` alone is a comment.
+/// Returns whether a grid begins with these lines: one all of wall above one of walls and floors,
+/// or the head of a map of moving-AI. A line of `#` alone is a comment.
 pub(super) fn begins(mut lines: Lines<'_>) -> bool {
     let mut row = || lines.next_filled().map_or("", |line| line.text.trim_end());
     let (first, second) = (row(), row());

@@ -45,8 +45,8 @@ impl<const N: usize> SpeedRunTimes<N> {
     /// Returns the times that follow from `config`. O(N).
     ///
     /// A straight of length `d` begins and ends at the speed `s` of the turns. With acceleration
-    /// `a`, braking `b` and g = 2 a b / (a + b), it reaches the speed √(s² + g d) if that is at most
-    /// its top speed, and then takes 2 (√(s² + g d) − s) / g. Otherwise it reaches the top
+    /// `a`, braking `b` and g = 2 a b / (a + b), it reaches the speed √(s² + g d) if that is at
+    /// most its top speed, and then takes 2 (√(s² + g d) − s) / g. Otherwise it reaches the top
     /// speed `v` and takes (g d + (v − s)²) / (g v).
     ///
     /// # Errors
