@@ -6,7 +6,7 @@ use serde_json::Value;
 use crate::workspace::{cargo, output};
 
 /// Licences that dependencies may have.
-const ALLOWED: [&str; 10] = [
+const ALLOWED: [&str; 11] = [
     "Apache-2.0",
     "Apache-2.0 WITH LLVM-exception",
     "BSD-2-Clause",
@@ -17,6 +17,7 @@ const ALLOWED: [&str; 10] = [
     "Unicode-3.0",
     "Unlicense",
     "Zlib",
+    "bzip2-1.0.6",
 ];
 
 /// Where they may come from.
