@@ -51,22 +51,7 @@ const TABLES: &[(&str, &[&str])] = &[(
 /// as of the others.
 const QUICK_TABLES: &[(&str, &[&str])] = &[
     ("arena", &["home, Pioneer"]),
-    ("micromouse", &["competition", "sets"]),
-    (
-        "cpm",
-        &[
-            "9",
-            "11",
-            "aliased",
-            "detector",
-            "dictionary",
-            "episodes",
-            "explored",
-            "localization",
-            "offline",
-            "unlearned",
-        ],
-    ),
+    ("micromouse", &["competition"]),
 ];
 
 /// Plays the runs of these experiments, or of all if none is named, and compares them with those in
