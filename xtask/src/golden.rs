@@ -49,10 +49,7 @@ const TABLES: &[(&str, &[&str])] = &[(
 /// Tables that are compared with every change, where all take too long for it: a robot that goes
 /// home has learned before. Of tables that have another number of runs, every change plays as many
 /// as of the others.
-const QUICK_TABLES: &[(&str, &[&str])] = &[
-    ("arena", &["home, Pioneer"]),
-    ("micromouse", &["competition"]),
-];
+const QUICK_TABLES: &[(&str, &[&str])] = &[("arena", &["home, Pioneer"])];
 
 /// Plays the runs of these experiments, or of all if none is named, and compares them with those in
 /// `tests/golden`. With `bless` it writes them there instead.
