@@ -315,6 +315,7 @@ mod tests {
         ("map show other --world other", "world"),
         ("maze check other", "files"),
         ("maze convert other", "file"),
+        ("maze diff other other", "one other"),
         ("maze distinct other", "mazes"),
         ("maze generate perfect", ""),
         ("maze show other", "file"),
