@@ -31,7 +31,7 @@
 //! map.search(&passages, &times, maze.goals(), Extent::Everywhere);
 //!
 //! let start = RunState::Straight { cell: Cell::new(0, 3), heading: Direction::East };
-//! assert_eq!(map.time_ms(start), Some(1992));
+//! assert_eq!(map.time_ms(start), Some(2446));
 //! for step in map.run(&passages, &times, start) {
 //!     println!("{:?}", step.run_move);
 //! }

@@ -3,8 +3,8 @@ use tolman_robot::Scan;
 
 use crate::TimeStep;
 
-/// Robot unit in which MSLST measures: the diameter of the calibrated robot, m. For another robot
-/// scale the [threshold](super::MslstConfig::on_robot).
+/// Robot unit in which MSLST measures: the diameter of the calibrated robot, m. Another robot's
+/// lengths are scaled to it by [`for_robot`](super::Mslst::for_robot).
 pub const ROBOT_UNIT: f64 = 0.5;
 
 /// Returns a scan for MSLST's quantizer: in robot units, and turned by the compass to the nearest
