@@ -19,7 +19,7 @@ maze breaks a rule.
 
 Examples:
   tolman maze check mazes/*.maze mazes/grid/*.txt
-  tolman maze check mazes/grid/*.txt --rules")]
+  tolman maze check mazes/grid/*.txt --rules  # exits 1")]
 pub(crate) struct Arguments {
     /// Maze files of any format; - reads standard input
     #[arg(required = true)]

@@ -20,7 +20,7 @@ digit a cell), maz (binary, a byte a cell). The format of the input is recognize
 
 Examples:
   tolman maze convert mazes/grid/braided-2.txt --to num --out braided-2.num
-  tolman maze convert mazes/grid/braided-2.txt --to blocks --rotate 90 --mirror")]
+  tolman maze convert mazes/grid/braided-2.txt --to tolman --rotate 90 --mirror")]
 pub(crate) struct Arguments {
     /// Maze file; - reads standard input
     file: PathBuf,
