@@ -32,6 +32,8 @@ pub struct BaseReport {
     pub pose: Option<Pose>,
     /// Ranges of all beams, m; `None` if this report has none.
     pub ranges: Option<Vec<f64>>,
+    /// Time when the first of the ranges was taken, µs; `None` if that is the report's own time.
+    pub taken_us: Option<u64>,
     /// Heading by the compass, 0 for east; `None` if this report has none.
     pub compass: Option<Heading>,
     /// Whether the body touched something; `None` if this report does not say.
@@ -48,7 +50,7 @@ pub struct RoverConfig {
     pub fastest: Twist,
     /// Strongest braking: m/s² and rad/s².
     pub braking: Twist,
-    /// Error of a motion that is let be: m and rad.
+    /// Error of a motion that is let be, and motion of a robot at rest: m and rad.
     pub tolerance: Twist,
     /// Time from a command to the report of its effect, µs.
     pub latency_us: u64,
@@ -133,10 +135,12 @@ pub enum RoverError<E> {
         /// Number of beams.
         beams: u32,
     },
-    /// The base does not come to the end of its motion.
-    #[error("the base does not end its motion in {seconds:.0} s: it is stuck, or reports no pose")]
-    Stuck {
-        /// Time that the motion took, s.
+    /// The base never stands still with a scan.
+    #[error(
+        "the base gave no scan at rest for {seconds:.0} s: it does not stop, or its laser is silent"
+    )]
+    Restless {
+        /// Time since it was told to stop, s.
         seconds: f64,
     },
 }
@@ -144,7 +148,8 @@ pub enum RoverError<E> {
 /// A robot that turns and rolls as far as it is told, on a base that takes velocities.
 ///
 /// Each step is a motion that is closed on the base's own dead reckoning. Then the robot stands
-/// still until a whole scan was taken at rest. The base is told to stop when it is silent, when a
+/// still until a whole scan was taken at rest. A motion that does not end has met something: it is
+/// given up, and counts as a bump. The base is told to stop when it is silent, when a
 /// report is invalid, and when the rover is dropped.
 #[derive(Debug)]
 pub struct VelocityRover<B: VelocityBase> {
@@ -209,9 +214,10 @@ impl<B: VelocityBase> VelocityRover<B> {
         let least = shares[0].max(shares[1]);
         let [each, more] = PATIENCE;
         let patience = each * least + more;
-        let begun = self.time_us;
+        let mut begun = None;
         let mut is_moving = least > 0.0;
-        let mut rest_us = None;
+        // When and where it came to rest.
+        let mut rest: Option<(u64, Odometry)> = None;
         loop {
             let left = self.left(goal);
             let is_there = left.distance.abs() <= self.config.tolerance.linear
@@ -223,18 +229,26 @@ impl<B: VelocityBase> VelocityRover<B> {
             };
             self.base.drive(velocity).map_err(RoverError::Base)?;
             let report = self.hear()?;
-            let is_at_rest = !is_moving
-                && self.rate.linear.abs() <= self.config.tolerance.linear
-                && self.rate.angular.abs() <= self.config.tolerance.angular;
-            match is_at_rest {
-                true => rest_us = rest_us.or(Some(self.time_us + latency_us)),
-                false => rest_us = None,
+            // The robot may have rested before this motion.
+            let since = *begun.get_or_insert(report.time_us);
+            let seconds = report.time_us.saturating_sub(since) as f64 * 1e-6;
+            if seconds > patience {
+                if !core::mem::take(&mut is_moving) {
+                    return Err(RoverError::Restless { seconds });
+                }
+                sensed.bump = Some(true);
+                begun = Some(report.time_us);
+            }
+            let has_moved = rest.is_none_or(|(_, at)| self.is_off(at));
+            if is_moving || has_moved {
+                rest = (!is_moving).then_some((report.time_us, self.rolled));
             }
             if let Some(bump) = report.bump {
                 sensed.bump = Some(sensed.bump == Some(true) || bump);
             }
             sensed.compass = report.compass.or(sensed.compass);
-            let is_new = rest_us.is_some_and(|rest| report.time_us >= rest);
+            let taken_us = report.taken_us.unwrap_or(report.time_us);
+            let is_new = rest.is_some_and(|(since, _)| taken_us >= since + latency_us);
             if let Some(ranges) = report.ranges.filter(|_| is_new) {
                 let ring = self.ring;
                 sensed.scan = Some(Scan { ring, ranges });
@@ -242,11 +256,14 @@ impl<B: VelocityBase> VelocityRover<B> {
                 sensed.odometry = Some(self.rolled);
                 return Ok(sensed);
             }
-            let seconds = self.time_us.saturating_sub(begun) as f64 * 1e-6;
-            if begun > 0 && seconds > patience {
-                return Err(RoverError::Stuck { seconds });
-            }
         }
+    }
+
+    /// Returns whether the robot is elsewhere than when it had rolled so far.
+    fn is_off(&self, at: Odometry) -> bool {
+        let Twist { linear, angular } = self.config.tolerance;
+        (self.rolled.distance - at.distance).abs() > linear
+            || (self.rolled.turn - at.turn).abs() > angular
     }
 
     /// Returns what is left of a motion once all commands under way have had their effect.
@@ -390,6 +407,12 @@ mod tests {
         /// Time from which it is silent.
         silent_from: Option<u64>,
         compass: Option<f64>,
+        /// Whether it stands against a wall.
+        is_blocked: bool,
+        /// Age of its scans, µs.
+        scan_age_us: u64,
+        /// Time at which it last moved.
+        stopped_us: u64,
     }
 
     const TICK_US: u64 = 20_000;
@@ -418,12 +441,19 @@ mod tests {
                 |now: f64, wanted: f64, most: f64| now + (wanted - now).clamp(-most, most);
             self.velocity.linear = towards(self.velocity.linear, self.wanted.linear, 0.02);
             self.velocity.angular = towards(self.velocity.angular, self.wanted.angular, 0.12);
+            if self.is_blocked {
+                self.velocity = Twist::default();
+            }
+            if self.velocity != Twist::default() {
+                self.stopped_us = self.time_us;
+            }
             let (way, turn) = (0.02 * self.velocity.linear, 0.02 * self.velocity.angular);
             self.pose = self.pose.displaced(way, turn);
             Ok(Some(BaseReport {
                 time_us: self.time_us,
                 pose: Some(self.pose),
                 ranges: self.time_us.is_multiple_of(200_000).then(|| vec![1.0; 4]),
+                taken_us: Some(self.time_us.saturating_sub(self.scan_age_us)),
                 compass: self.compass.map(Heading::from_radians),
                 bump: None,
             }))
@@ -476,12 +506,8 @@ mod tests {
         };
         let mut rover = rover(&mut base);
         rover.stop().unwrap();
-        let ahead = TurnTranslate {
-            turn: 0.0,
-            translate: 1.0,
-        };
         let silence_us = 500_000;
-        assert_eq!(rover.step(&ahead), Err(RoverError::Silent { silence_us }));
+        assert_eq!(rover.step(&AHEAD), Err(RoverError::Silent { silence_us }));
         assert_eq!(rover.base().last, Twist::default());
     }
 
@@ -497,5 +523,47 @@ mod tests {
             Err(RoverError::NotANumber { sense: "compass" })
         );
         assert_eq!(rover.base().last, Twist::default());
+    }
+    const AHEAD: TurnTranslate = TurnTranslate {
+        turn: 0.0,
+        translate: 1.0,
+    };
+
+    #[test]
+    fn a_motion_that_does_not_end_is_a_bump() {
+        let mut base = Late {
+            is_blocked: true,
+            ..Late::default()
+        };
+        let mut rover = rover(&mut base);
+        rover.stop().unwrap();
+        rover.step(&AHEAD).unwrap();
+        let sensed = rover.sensing();
+        assert_eq!(sensed.bump, Some(true));
+        assert!(sensed.odometry.unwrap().distance.abs() < 1e-9);
+        assert_eq!(rover.base().last, Twist::default());
+    }
+
+    #[test]
+    fn a_base_may_rest_for_minutes_between_motions() {
+        let mut base = Late::default();
+        rover(&mut base).stop().unwrap();
+        base.time_us += 600_000_000;
+        let mut rover = rover(&mut base);
+        rover.step(&AHEAD).unwrap();
+        assert_eq!(rover.sensing().bump, None);
+    }
+
+    #[test]
+    fn a_scan_of_the_motion_before_is_not_taken() {
+        let mut base = Late {
+            scan_age_us: 300_000,
+            ..Late::default()
+        };
+        let mut rover = rover(&mut base);
+        rover.step(&AHEAD).unwrap();
+        // Its latency, and as much again as its scans are old.
+        let rested_us = rover.base().time_us - rover.base().stopped_us;
+        assert!(rested_us >= 400_000, "{rested_us}");
     }
 }
