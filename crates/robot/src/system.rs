@@ -1,5 +1,7 @@
 use alloc::string::String;
 
+use tolman_geom::{Heading, Point};
+
 use crate::{Landmark, Mapper, Robot};
 
 /// A mapper that also drives.
@@ -25,6 +27,12 @@ pub trait System<R: Robot>: Mapper {
         Standing::gave_up("it follows its robot, and cannot find out where it is put down")
     }
 
+    /// Returns where it believes its robot to look, if it has a heading of its own; `None` if it
+    /// takes the compass's.
+    fn heading(&self) -> Option<Heading> {
+        None
+    }
+
     /// Returns the system's situation in a few words for a viewer, such as `lost`; empty if there
     /// is nothing to say.
     fn words(&self) -> String {
@@ -33,7 +41,7 @@ pub trait System<R: Robot>: Mapper {
 }
 
 /// Task of a system.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Task {
     /// Learn the world until the system knows all of it, or as much as it wants to.
     Explore,
@@ -44,12 +52,14 @@ pub enum Task {
 }
 
 /// Goal of a system.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Goal {
     /// A landmark, which the robot senses on arrival.
     Landmark(Landmark),
     /// A place of the system's own map, by id.
     Place(u32),
+    /// A point of the system's own map, m.
+    Point(Point),
 }
 
 /// State of a task after an action.

@@ -167,6 +167,7 @@ impl<B: Brain> Actor<B> {
         if has_arrived(robot, task) {
             return Ok(Standing::Done);
         }
+        self.brain.aim(task);
         let standing = self.brain.standing(task);
         if standing != Standing::UnderWay {
             return Ok(standing);
@@ -198,7 +199,7 @@ impl<B: Brain> Actor<B> {
 fn has_arrived<R: SensesLandmarks>(robot: &R, task: Task) -> bool {
     match task {
         Task::Reach(Goal::Landmark(goal)) => robot.landmark() == Some(goal),
-        Task::Reach(Goal::Place(_)) | Task::Explore | Task::Localize => false,
+        Task::Reach(Goal::Place(_) | Goal::Point(_)) | Task::Explore | Task::Localize => false,
     }
 }
 

@@ -2,10 +2,10 @@ use core::error::Error;
 
 use thiserror::Error as ThisError;
 use tolman_control::RingError;
-use tolman_geom::OutOfRange;
+use tolman_geom::{Heading, OutOfRange};
 use tolman_maps::cpm::CpmError;
 use tolman_robot::{
-    Fitted, Guess, LaserSensing, MadeFor, MapView, MeasuresError, Position, Ring, Robot,
+    Fitted, Goal, Guess, LaserSensing, MadeFor, MapView, MeasuresError, Position, Ring, Robot,
     RobotMeasures, SensesLandmarks, Standing, Stopping, System, Task, TurnTranslate, VisitNaming,
 };
 
@@ -63,6 +63,9 @@ pub trait AnyOnRobot {
 
     /// Returns where the system believes the robot to be, in the robot's metres.
     fn belief(&self) -> Vec<Guess>;
+
+    /// Returns where the system believes the robot to look, as [`System::heading`] does.
+    fn heading(&self) -> Option<Heading>;
 
     /// Returns when the system names a place of [`visits`](Self::visits).
     fn visit_naming(&self) -> VisitNaming;
@@ -122,6 +125,10 @@ where
             self.robot.stop().map_err(Into::into)?;
             self.has_looked = true;
         }
+        let task = match task {
+            Task::Reach(Goal::Point(at)) => Task::Reach(Goal::Point(at / self.metre)),
+            other => other,
+        };
         let acted = self.system.act(self.robot.robot_mut(), task);
         acted.map_err(Into::into)
     }
@@ -150,6 +157,10 @@ where
             }
         }
         belief
+    }
+
+    fn heading(&self) -> Option<Heading> {
+        self.system.heading()
     }
 
     fn visit_naming(&self) -> VisitNaming {

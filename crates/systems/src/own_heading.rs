@@ -1,6 +1,7 @@
 use core::f64::consts::PI;
 
 use tolman_control::{HeadingFilter, HeadingReadings};
+use tolman_geom::Heading;
 use tolman_robot::{
     Bumps, Clock, Compass, Fitted, Guess, Landmark, LaserSensing, MapView, Mapper, Ranges, Ring,
     Robot, RobotMeasures, Rolls, SensesLandmarks, Standing, System, Task, TurnTranslate,
@@ -159,6 +160,10 @@ where
         self.has_looked = false;
         self.actor.put_down();
         Standing::UnderWay
+    }
+
+    fn heading(&self) -> Option<Heading> {
+        Some(self.filter.heading())
     }
 
     fn words(&self) -> String {

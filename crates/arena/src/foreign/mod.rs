@@ -30,6 +30,7 @@ mod brain;
 mod keeper;
 mod program;
 mod service;
+mod told;
 mod wire;
 
 pub use brain::{BrainError, ForeignBrain, Hello};
@@ -37,4 +38,5 @@ pub use brain::{BrainError, ForeignBrain, Hello};
 pub use keeper::keep;
 pub use program::{Budget, ForeignProgram, Launch, LaunchError, Left, Log, Overrun};
 pub use service::{Service, ServiceError};
+pub use told::Told;
 pub use wire::{NamedTask, WireError};

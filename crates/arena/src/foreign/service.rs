@@ -8,16 +8,14 @@ use std::io::{BufRead, Write};
 use serde_json::{Map, Value, json};
 use thiserror::Error;
 use tolman_robot::{
-    Guess, Landmark, LaserSensing, MapView, Position, Robot, RobotMeasures, SensesLandmarks,
-    Standing, TurnTranslate, VisitNaming,
+    Landmark, LaserSensing, Robot, RobotMeasures, SensesLandmarks, Standing, TurnTranslate,
 };
 use tolman_systems::AnyOnRobot;
 
+use super::told::{Told, words};
 use super::wire::{Message, NamedTask, Question, Wire, WireError};
 use crate::BoxError;
-use crate::contest::Claim;
 use crate::registry::{RobotFailure, SystemEntry, SystemFacts};
-use crate::run::TaskEnd;
 
 /// Version of the protocol that a [`Service`] speaks.
 const PROTOCOL: u32 = 1;
@@ -192,7 +190,8 @@ impl Service {
             }
         };
         let (word, why) = words(&standing);
-        let told = json!({ "ended": { "task": task.name(), "standing": word, "why": why, "verdict": self.verdict(&standing) } });
+        let verdict = self.told().verdict(&standing);
+        let told = json!({ "ended": { "task": task.name(), "standing": word, "why": why, "verdict": verdict } });
         self.line.borrow_mut().wire.say(&told)?;
         Ok(standing)
     }
@@ -228,49 +227,26 @@ impl Service {
     }
 
     fn answer(&self, asked: Question, standing: &Standing) -> (String, Value) {
-        let pilot = &*self.pilot;
+        let told = self.told();
         let (name, answer) = match asked {
             Question::Standing => {
-                let (word, why) = words(standing);
-                let situation = pilot.words();
-                let visits = pilot.visit_count();
-                (
-                    "standing",
-                    json!({ "actions": self.actions, "standing": word, "why": why, "situation": situation, "visits": visits }),
-                )
+                let mut answer = told.standing(standing);
+                answer["actions"] = self.actions.into();
+                ("standing", answer)
             }
-            Question::Belief => ("belief", Value::from_iter(pilot.belief().iter().map(guess))),
-            Question::Map => ("map", map(&pilot.map())),
-            Question::Visits => {
-                let naming = match pilot.visit_naming() {
-                    VisitNaming::Never => "never",
-                    VisitNaming::EachStep => "each_step",
-                    VisitNaming::EachArrival => "each_arrival",
-                };
-                (
-                    "visits",
-                    json!({ "naming": naming, "places": pilot.visits() }),
-                )
-            }
-            Question::Verdict => ("verdict", self.verdict(standing)),
+            Question::Belief => ("belief", told.belief()),
+            Question::Map => ("map", told.map()),
+            Question::Visits => ("visits", told.visits()),
+            Question::Verdict => ("verdict", told.verdict(standing)),
         };
         (name.to_owned(), answer)
     }
 
-    /// Returns the system's own verdict on its map.
-    fn verdict(&self, standing: &Standing) -> Value {
-        let (doubt, certainty) = (self.pilot.doubt(), self.pilot.certainty());
-        let end = match standing {
-            Standing::UnderWay => TaskEnd::OutOfTime,
-            Standing::Done => TaskEnd::Done,
-            Standing::GaveUp { why } => TaskEnd::GaveUp { why: why.clone() },
-        };
-        let claim = match Claim::by(&end, self.facts.claims, doubt.as_deref(), certainty) {
-            Claim::Right => "right",
-            Claim::Wrong => "wrong",
-            Claim::Undecided => "undecided",
-        };
-        json!({ "map": claim, "doubt": doubt, "certainty": certainty })
+    fn told(&self) -> Told<'_> {
+        Told {
+            facts: &self.facts,
+            pilot: &*self.pilot,
+        }
     }
 }
 
@@ -283,34 +259,6 @@ fn chain(error: &dyn core::error::Error) -> String {
         next = source.source();
     }
     told
-}
-
-fn words(standing: &Standing) -> (&'static str, Option<&str>) {
-    match standing {
-        Standing::UnderWay => ("under_way", None),
-        Standing::Done => ("done", None),
-        Standing::GaveUp { why } => ("gave_up", Some(why)),
-    }
-}
-
-fn guess(guess: &Guess) -> Value {
-    let weight = guess.weight;
-    match guess.at {
-        Position::Place(place) => json!({ "place": place, "weight": weight }),
-        Position::Point(at) => json!({ "point": [at.x, at.y], "weight": weight }),
-    }
-}
-
-fn map(view: &MapView) -> Value {
-    let place = |place: &tolman_robot::MapPlace| {
-        let position = place.position.map(|at| [at.x, at.y]);
-        json!({ "id": place.id, "position": position, "landmark": place.landmark })
-    };
-    let links = view.links.iter().map(|link| [link.from, link.to]);
-    json!({
-        "places": view.places.iter().map(place).collect::<Vec<Value>>(),
-        "links": links.collect::<Vec<[u32; 2]>>(),
-    })
 }
 
 impl Line {

@@ -1,15 +1,19 @@
 //! MSLST Better learns a maze whatever its compass says, since walls tell its heading.
 
+use alloc::rc::Rc;
+use core::cell::Cell;
+
 use tolman_arena::Simulated;
 use tolman_arena::course::Course;
 use tolman_arena::pioneer::{CORRIDOR_WIDTH, calibrated, with_sensor_noise};
 use tolman_arena::registry::{AnyRobot, Registry, RobotFailure};
-use tolman_geom::Heading;
+use tolman_geom::{Heading, Point, Pose};
 use tolman_robot::{
-    Landmark, LaserMeasures, LaserSensing, Robot, RobotMeasures, SensesLandmarks, Standing,
+    Goal, Landmark, LaserMeasures, LaserSensing, Robot, RobotMeasures, SensesLandmarks, Standing,
     StepMeasures, Task, TurnTranslate,
 };
 use tolman_sim::robots::LaserPioneer;
+use tolman_systems::AnyOnRobot;
 
 const FORKS: &str = include_str!("../../../../mazes/forks.maze");
 
@@ -21,6 +25,8 @@ struct WithCompass {
     told: Told,
     steps: u32,
     sensing: LaserSensing,
+    /// Where it truly is, m.
+    at: Rc<Cell<Point>>,
 }
 
 impl Robot for WithCompass {
@@ -36,6 +42,7 @@ impl Robot for WithCompass {
         let stepped = self.robot.step(command);
         stepped.map_err(|error| RobotFailure(error.into()))?;
         self.steps += 1;
+        self.at.set(self.robot.path().last().unwrap().position);
         self.sensing = self.robot.sensing().clone();
         let compass = self.sensing.compass;
         self.sensing.compass = compass.and_then(|true_one| (self.told)(true_one, self.steps));
@@ -49,9 +56,8 @@ impl SensesLandmarks for WithCompass {
     }
 }
 
-/// Lets MSLST Better explore the maze and returns the numbers of places and links of its map, and
-/// why it doubts it.
-fn learned(told: Told, seed: u64) -> (usize, usize, Option<String>) {
+/// Lets MSLST Better explore the maze. Returns it, where it began, and where its robot truly is.
+fn explored(told: Told, seed: u64) -> (Box<dyn AnyOnRobot>, Pose, Rc<Cell<Point>>) {
     let maze = tolman_maze::read(FORKS).unwrap().maze;
     let course = Course::new("forks", maze, CORRIDOR_WIDTH).unwrap();
     let config = with_sensor_noise(&calibrated(), 0.03);
@@ -64,14 +70,15 @@ fn learned(told: Told, seed: u64) -> (usize, usize, Option<String>) {
     });
     let sensing = LaserSensing::silent(config.ring);
     let model = LaserPioneer::new(config).unwrap();
-    let robot = course
-        .robot_at(course.start().unwrap(), model, seed)
-        .unwrap();
+    let start = course.start().unwrap();
+    let robot = course.robot_at(start, model, seed).unwrap();
+    let at = Rc::new(Cell::new(robot.path().last().unwrap().position));
     let robot = WithCompass {
         robot,
         told,
         steps: 0,
         sensing,
+        at: Rc::clone(&at),
     };
     let system = Registry::current().system("mslst-better").unwrap();
     let put = system.facts().for_robot.unwrap();
@@ -81,8 +88,55 @@ fn learned(told: Told, seed: u64) -> (usize, usize, Option<String>) {
             break;
         }
     }
+    (pilot, start, at)
+}
+
+/// Lets MSLST Better explore the maze and returns the numbers of places and links of its map, and
+/// why it doubts it.
+fn learned(told: Told, seed: u64) -> (usize, usize, Option<String>) {
+    let (pilot, ..) = explored(told, seed);
     let map = pilot.map();
     (map.places.len(), map.links.len(), pilot.doubt())
+}
+
+#[test]
+fn it_goes_to_any_place_and_any_point_of_its_map() {
+    let (mut pilot, start, at) = explored(|heading, _| Some(heading), 3);
+    let map = pilot.map();
+    let position = |id: u32| {
+        let mut places = map.places.iter();
+        places
+            .find(|place| place.id == id)
+            .unwrap()
+            .position
+            .unwrap()
+    };
+    let places = map.places.iter().map(|place| Goal::Place(place.id));
+    let ways = map.ways.iter().map(|way| Goal::Point(way[way.len() / 2]));
+    let mut reached = 0;
+    for goal in places.chain(ways).step_by(2) {
+        let wanted = match goal {
+            Goal::Place(id) => position(id),
+            Goal::Point(at) => at,
+            Goal::Landmark(_) => continue,
+        };
+        let mut standing = Standing::UnderWay;
+        for _ in 0..ACTIONS {
+            standing = pilot.act(Task::Reach(goal)).unwrap();
+            if standing != Standing::UnderWay {
+                break;
+            }
+        }
+        assert_eq!(standing, Standing::Done, "{goal:?}");
+        // Its map begins where the robot did.
+        let off = (at.get() - start.transform(wanted)).norm();
+        assert!(off < CORRIDOR_WIDTH, "{goal:?}: {off:.2} m");
+        reached += 1;
+    }
+    assert!(reached > 5, "{reached} goals");
+    let outside = Goal::Point(Point::new(100.0, 0.0));
+    let refused = pilot.act(Task::Reach(outside)).unwrap();
+    assert_eq!(refused, Standing::gave_up("its map has no floor there"));
 }
 
 /// Maximum number of actions of a run.

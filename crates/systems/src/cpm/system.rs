@@ -25,6 +25,7 @@ use super::trail::Trail;
 use super::walker::{RestingWalker, Walker};
 use super::walker_config::WalkerConfig;
 use super::whereabouts::Approach;
+use crate::brain::NO_POINTS;
 use crate::on_robot::{CORRIDOR_WIDTH, fitted, needed};
 use crate::{ForRobotError, LaserRobot, OnRobot};
 
@@ -431,6 +432,7 @@ impl Cpm {
         match goal {
             Goal::Landmark(landmark) => mapper.plan(landmark),
             Goal::Place(place) => mapper.map().plan(mapper.at(), |id| id == JunctionId(place)),
+            Goal::Point(_) => None,
         }
     }
 
@@ -449,6 +451,10 @@ impl Cpm {
                 Ok(Standing::gave_up(format!(
                     "it knows no way to place {place}"
                 )))
+            }
+            (None, Goal::Point(_)) => {
+                self.standing = Stance::AtPlace(Box::new(resting));
+                Ok(Standing::gave_up(NO_POINTS))
             }
         }
     }

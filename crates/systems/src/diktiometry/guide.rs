@@ -15,6 +15,7 @@ use super::{
     ExploreUntil, LandmarkSpot, MapError, MappedMove, Planner, Reason, RefusedMove, Rover,
     first_place, observed,
 };
+use crate::brain::NO_POINTS;
 use crate::stream;
 
 /// Chooses the next move of a task by the map of a rover. It knows no robot.
@@ -345,6 +346,7 @@ impl Guide {
             Task::Explore if self.is_out_of_patience() => self.give_the_map_up(),
             Task::Explore | Task::Localize => self.wander(),
             Task::Reach(Goal::Place(id)) => self.reach(PlaceId(id)),
+            Task::Reach(Goal::Point(_)) => give_up(NO_POINTS),
             Task::Reach(Goal::Landmark(landmark)) => self.seek(landmark, here),
         }
     }
@@ -363,6 +365,7 @@ impl Guide {
                 ExploreUntil::Never => false,
             },
             Task::Localize => self.whereabouts == Whereabouts::Followed && is_sure(observer),
+            Task::Reach(Goal::Point(_)) => false,
             Task::Reach(Goal::Landmark(landmark)) => here == Some(landmark),
             Task::Reach(Goal::Place(id)) => {
                 let place = observer.map().paths.resolve(PlaceId(id));

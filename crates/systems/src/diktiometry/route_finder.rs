@@ -12,6 +12,7 @@ use tolman_planners::{Graph, path_to};
 use tolman_robot::{Goal, Landmark, Standing, Task};
 
 use super::{LandmarkSpot, Next, Rover, first_place, give_up, observed};
+use crate::brain::NO_POINTS;
 use crate::stream;
 
 /// Chooses the next move of a rover that was put down anywhere on a learned map. It knows no robot.
@@ -159,6 +160,7 @@ impl RouteFinder {
                 None => return give_up(&format!("place {id} is not on the map")),
                 to => to,
             },
+            Task::Reach(Goal::Point(_)) => return give_up(NO_POINTS),
             Task::Reach(Goal::Landmark(landmark)) => {
                 match self.goal.filter(|_| landmark == Landmark::Goal) {
                     None => {
@@ -257,7 +259,7 @@ impl RouteFinder {
 
     fn is_done(&self, task: Task, here: Option<Landmark>) -> bool {
         match task {
-            Task::Explore => false,
+            Task::Explore | Task::Reach(Goal::Point(_)) => false,
             Task::Localize => self.here().or_else(|| self.likeliest()).is_some(),
             Task::Reach(Goal::Landmark(landmark)) => here == Some(landmark),
             Task::Reach(Goal::Place(id)) => {

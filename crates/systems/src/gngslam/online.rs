@@ -421,6 +421,7 @@ impl OnlineSlam {
                 let point = pose.position;
                 Some(Target { place, point })
             }
+            Goal::Point(_) => None,
             Goal::Landmark(wanted) => amid(&self.sightings, wanted, &self.tried, &self.map),
         }
     }

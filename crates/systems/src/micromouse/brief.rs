@@ -23,7 +23,7 @@ impl Brief {
         let cells = match goal {
             Goal::Landmark(Landmark::Start) => Some(vec![self.start]),
             Goal::Landmark(Landmark::Goal) => Some(self.goals.clone()),
-            Goal::Landmark(Landmark::Numbered(_)) => None,
+            Goal::Landmark(Landmark::Numbered(_)) | Goal::Point(_) => None,
             Goal::Place(id) => self.grid.cells().nth(id as usize).map(|cell| vec![cell]),
         };
         let why = "the mouse knows the start, the goals, and cells of the maze";

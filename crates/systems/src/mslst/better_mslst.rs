@@ -192,6 +192,13 @@ impl Brain for BetterMslst {
         }
     }
 
+    fn aim(&mut self, task: Task) {
+        match &mut self.phase {
+            Phase::Exploration(_) => {}
+            Phase::Explored(_, navigator) | Phase::Navigation(navigator) => navigator.aim(task),
+        }
+    }
+
     fn standing(&self, task: Task) -> Standing {
         match (&self.phase, task) {
             (Phase::Explored(_, navigator), Task::Reach(_) | Task::Localize) => {

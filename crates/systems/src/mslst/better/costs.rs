@@ -1,6 +1,7 @@
+use tolman_maze::Direction;
 use tolman_planners::Decisions;
 
-/// Average cost of each action until the goal, at each standpoint and along either axis: ten bytes
+/// Average cost of each action until an end, at each standpoint and along either axis: ten bytes
 /// per standpoint.
 ///
 /// The plan's decisions take thirty times as much, and are not needed afterwards.
@@ -50,9 +51,10 @@ impl ActionCosts {
             .push(options.map(|cost| libm::round((cost - least) / MORE_UNIT) as u8));
     }
 
-    /// Returns the mean number of time steps to the goal by an option at a standpoint; [`HOPELESS`]
-    /// if there is none.
-    pub(super) fn cost(&self, standpoint: u32, option: usize) -> f64 {
+    /// Returns the mean number of time steps to the end of the ways from a standpoint by an action,
+    /// facing along an axis; [`HOPELESS`] if no way leads there.
+    pub(super) fn cost(&self, standpoint: u32, axis: usize, action: Direction) -> f64 {
+        let option = axis * Direction::ALL.len() + action.index();
         let standpoint = standpoint as usize;
         let (Some(least), Some(more)) = (self.least.get(standpoint), self.more.get(standpoint))
         else {
@@ -74,11 +76,14 @@ mod tests {
         };
         let options = [70.05, 71.0, 75.3, 80.0, 70.1, 1e4, 101.0, 72.0];
         costs.add(options);
-        for (option, expected) in options.into_iter().enumerate() {
-            let cost = costs.cost(0, option);
+        let chosen = [0, 1]
+            .into_iter()
+            .flat_map(|axis| Direction::ALL.map(|action| (axis, action)));
+        for ((axis, action), expected) in chosen.zip(options) {
+            let cost = costs.cost(0, axis, action);
             let most = 70.05 + 255.0 * MORE_UNIT;
             assert!((cost - expected.min(most)).abs() < 0.2, "{cost}");
         }
-        assert!(costs.cost(1, 0) >= f64::from(HOPELESS));
+        assert!(costs.cost(1, 0, Direction::ALL[0]) >= f64::from(HOPELESS));
     }
 }

@@ -399,7 +399,8 @@ impl Brain for BetterExplorer {
             }
             Task::Explore if self.plan != Plan::Finished => Standing::UnderWay,
             Task::Explore if self.map.goal().is_empty() => {
-                Standing::gave_up("it has been everywhere and the goal was nowhere")
+                let everywhere = "it has been everywhere and the goal was nowhere";
+                Standing::gave_up(self.why_doubtful().unwrap_or(everywhere))
             }
             Task::Explore => Standing::Done,
             Task::Reach(_) | Task::Localize => {

@@ -36,17 +36,29 @@ impl BetterMap {
     pub fn of(chart: ScanChart, ring: Ring, config: &BetterConfig) -> Result<Self, RingError> {
         let corridors = CorridorMap::of(&chart, config.corridor_width);
         let standpoints = Standpoints::of(chart, ring);
-        let decisions = rehearse(&standpoints, ring, config)?;
-        let goals = standpoints.goals().iter();
-        let goals = goals.flat_map(|number| [0, 1].map(|axis| state(*number, axis) as u32));
-        let goals: Vec<u32> = goals.collect();
-        let states = expected_costs(&decisions, &goals, HOPELESS, SETTLED, MOST_SWEEPS);
+        let costs = costs_to(standpoints.goals(), &standpoints, config)?;
         Ok(Self {
             config: *config,
             standpoints,
             corridors,
-            costs: ActionCosts::of(&decisions, &states),
+            costs,
         })
+    }
+
+    /// Returns the costs of the ways to the goal.
+    pub(super) const fn costs(&self) -> &ActionCosts {
+        &self.costs
+    }
+
+    /// Returns the costs of the ways to all standpoints that are `there`; `None` if none is.
+    pub(super) fn costs_to(&self, there: impl Fn(Point) -> bool) -> Option<ActionCosts> {
+        let numbered = (0..).zip(self.standpoints.positions());
+        let there = numbered.filter(|(_, at)| there(*at));
+        let there: Vec<u32> = there.map(|(number, _)| number).collect();
+        if there.is_empty() {
+            return None;
+        }
+        costs_to(&there, &self.standpoints, &self.config).ok()
     }
 
     /// Returns the map with additional walls at these points, or `None` if the layers cannot read
@@ -75,15 +87,23 @@ impl BetterMap {
         let leads = |(number, _)| {
             Direction::ALL
                 .into_iter()
-                .any(|action| self.cost(number, 0, action) < f64::from(HOPELESS) / 2.0)
+                .any(|action| self.costs.cost(number, 0, action) < f64::from(HOPELESS) / 2.0)
         };
         near.into_iter().any(leads)
     }
+}
 
-    /// Returns the mean number of time steps to the goal from a standpoint by an action, facing
-    /// along an axis.
-    pub(super) fn cost(&self, number: u32, axis: usize, action: Direction) -> f64 {
-        let option = axis * Direction::ALL.len() + action.index();
-        self.costs.cost(number, option)
-    }
+/// Returns the costs of the ways to some standpoints. O(standpoints · tries · steps · beams).
+fn costs_to(
+    ends: &[u32],
+    standpoints: &Standpoints,
+    config: &BetterConfig,
+) -> Result<ActionCosts, RingError> {
+    let decisions = rehearse(standpoints, standpoints.ring(), config)?;
+    let ends = ends
+        .iter()
+        .flat_map(|number| [0, 1].map(|axis| state(*number, axis) as u32));
+    let ends: Vec<u32> = ends.collect();
+    let states = expected_costs(&decisions, &ends, HOPELESS, SETTLED, MOST_SWEEPS);
+    Ok(ActionCosts::of(&decisions, &states))
 }

@@ -9,6 +9,7 @@ use tolman_maze::Direction;
 use tolman_robot::{Goal, Guess, Landmark, MapView, Mapper, Position, Scan, Standing, Task};
 
 use super::changed_map::ChangedMap;
+use super::costs::ActionCosts;
 use super::reckoning::Reckoning;
 use super::rehearsal::facing;
 use super::tries::Tries;
@@ -29,6 +30,8 @@ pub struct BetterNavigator {
     failed: Vec<Direction>,
     failures: Tries,
     next: Option<Direction>,
+    /// Where to go, with the costs of the ways there; `None` for the landmark of the goal.
+    aim: Option<(Goal, ActionCosts)>,
 }
 
 /// Number of failures of an action at a place before it costs more there.
@@ -55,6 +58,7 @@ impl BetterNavigator {
             failed: Vec::new(),
             failures: Tries::default(),
             next: None,
+            aim: None,
         }
     }
 
@@ -107,13 +111,35 @@ impl BetterNavigator {
     fn at_its_place(&self) -> f64 {
         let corridors = self.maps.learned().corridors();
         let place = self.likeliest().and_then(|at| corridors.at(at));
-        if place.is_none() {
-            return 0.0;
-        }
+        place.map_or(0.0, |place| self.at(Goal::Place(place)))
+    }
+
+    /// Returns the probability that the robot is at a goal of its map. O(standpoints believed in ·
+    /// places).
+    fn at(&self, goal: Goal) -> f64 {
         let believed = self.belief.probabilities().iter().copied().map(f64::from);
         let there = self.current().standpoints.positions().zip(believed);
-        let there = there.filter(|(at, mass)| *mass > 0.0 && corridors.at(*at) == place);
+        let there = there.filter(|(at, mass)| *mass > 0.0 && self.is_there(goal, *at));
         there.map(|(_, mass)| mass).sum()
+    }
+
+    /// Returns whether a point of its map belongs to a goal: to a place, or within half a corridor
+    /// of a point.
+    fn is_there(&self, goal: Goal, at: Point) -> bool {
+        match goal {
+            Goal::Place(place) => self.maps.learned().corridors().at(at) == Some(place),
+            Goal::Point(point) => {
+                (at - point).norm() <= 0.5 * self.current().config.corridor_width
+                    && self.current().chart().ground().sees(point, at)
+            }
+            Goal::Landmark(_) => false,
+        }
+    }
+
+    /// Returns the costs of the ways to a goal of its map; `None` if the map does not have it.
+    fn costs_to(&self, goal: Goal) -> Option<ActionCosts> {
+        let there = |at| self.is_there(goal, at);
+        self.current().costs_to(there)
     }
 
     /// Looks for walls beyond its map that have just barred its way.
@@ -139,11 +165,15 @@ impl BetterNavigator {
     fn carry_over(&mut self, before: &BetterMap) {
         let now = &self.maps.now().standpoints;
         self.belief = self.belief.carried_over(&before.standpoints, now);
+        let aim = self.aim.take();
+        self.aim = aim.and_then(|(goal, _)| Some((goal, self.costs_to(goal)?)));
     }
 
     /// Returns the action of least mean cost over its belief.
     fn cheapest(&self) -> Option<Direction> {
         let map = self.current();
+        let to_goal = || map.costs();
+        let plan = self.aim.as_ref().map_or_else(to_goal, |(_, costs)| costs);
         let axis = facing(self.heading);
         let only = match map.config.has(BetterPart::Average) {
             true => None,
@@ -155,7 +185,7 @@ impl BetterNavigator {
             let has_say = mass > NO_SAY / map.standpoints.len() as f64;
             if has_say && only.is_none_or(|only| only == number) {
                 for action in Direction::ALL {
-                    costs[action.index()] += mass * map.cost(number, axis, action);
+                    costs[action.index()] += mass * plan.cost(number, axis, action);
                 }
             }
         }
@@ -237,11 +267,29 @@ impl Brain for BetterNavigator {
             .unwrap_or_else(|| Direction::ALL[rng.random_range(0..4)])
     }
 
+    fn aim(&mut self, task: Task) {
+        let goal = match task {
+            Task::Reach(goal @ (Goal::Place(_) | Goal::Point(_))) => Some(goal),
+            Task::Reach(Goal::Landmark(_)) | Task::Explore | Task::Localize => None,
+        };
+        if goal != self.aim.as_ref().map(|(goal, _)| *goal) {
+            self.aim = goal.and_then(|goal| Some((goal, self.costs_to(goal)?)));
+            self.next = self.cheapest();
+        }
+    }
+
     fn standing(&self, task: Task) -> Standing {
         match task {
             Task::Explore => Standing::Done,
             Task::Reach(Goal::Landmark(Landmark::Goal)) => Standing::UnderWay,
-            Task::Reach(_) => Standing::gave_up("its map leads to the landmark of the goal alone"),
+            Task::Reach(Goal::Landmark(_)) => {
+                Standing::gave_up("its map has no landmark but the goal's")
+            }
+            Task::Reach(goal) => match &self.aim {
+                None => Standing::gave_up("its map has no floor there"),
+                Some(_) if self.at(goal) > SURE => Standing::Done,
+                Some(_) => Standing::UnderWay,
+            },
             Task::Localize => {
                 if self.at_its_place() > SURE_TO_SAY {
                     Standing::Done
