@@ -204,4 +204,5 @@ def main():
         print(json.dumps({"noise": call.noise, "seed": seed} | run), flush=True)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -98,6 +98,7 @@ class Robot:
         mujoco.mj_step(self.model, self.data, 50)
         self.before = self.ticks()
         self.touched = False
+        self.rims = np.zeros(2)  # speeds that the driver asks for, m/s
         self.look()
 
     def pose(self):
@@ -143,6 +144,14 @@ class Robot:
         self.data.ctrl[:] = 0
         if self.noise["scan_age"] == 0 or far <= 1e-6:
             self.look()
+
+    def cruise(self, linear, angular):
+        """Drives towards these velocities for one step of the wheels' control."""
+        wanted = np.array([linear - angular * TRACK / 2, linear + angular * TRACK / 2])
+        most = ACCELERATION * PHYSICS_STEP * CONTROL_STEPS
+        self.rims += np.clip(wanted - self.rims, -most, most)
+        self.data.ctrl[:] = self.rims / WHEEL_RADIUS
+        self.advance()
 
     def advance(self):
         mujoco.mj_step(self.model, self.data, CONTROL_STEPS)

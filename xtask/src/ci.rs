@@ -22,7 +22,7 @@ use Job::{Golden, Static, Tests, Thorough};
 use crate::workspace::{self, built, cargo, installed, succeed};
 use crate::{
     board, docs, fuzz, golden, layers, mazes, mouse_c, mujoco, mutants, packages, playground,
-    prose, python, rerun, site,
+    prose, python, rerun, ros2, site,
 };
 
 /// Outcome of a step that did not fail.
@@ -115,6 +115,7 @@ const STEPS: &[Step] = &[
     ("python", Thorough, python::check),
     ("mujoco", Thorough, mujoco::check),
     ("rerun", Thorough, rerun::check),
+    ("ros2", Thorough, ros2::check),
     ("playground", Thorough, playground::check),
     ("site", Thorough, site::check),
     ("packages", Thorough, || passed(packages::all())),

@@ -25,6 +25,7 @@ mod prose;
 mod python;
 mod release;
 mod rerun;
+mod ros2;
 mod site;
 mod workspace;
 
@@ -117,6 +118,9 @@ enum Verb {
     /// Lets a system learn mazes on a robot in MuJoCo, a simulator of others, and go home from
     /// elsewhere. Installs MuJoCo into target/mujoco
     Mujoco(mujoco::Choice),
+    /// Lets the ROS 2 node learn mazes on the robot of MuJoCo, over DDS alone, go home, and go to a
+    /// goal of nav2
+    Ros2(mujoco::Choice),
     /// Tests the package that writes replays for Rerun
     Rerun,
     /// Builds the playground, a page on which robots learn a maze that the reader draws. Needs a
@@ -161,6 +165,7 @@ fn main() -> ExitCode {
         Verb::Python => alone(python::check()),
         Verb::Mujoco(choice) => alone(mujoco::run(&choice)),
         Verb::Rerun => alone(rerun::check()),
+        Verb::Ros2(choice) => alone(ros2::run(&choice)),
         Verb::Playground { out } => playground::run(out.as_deref()),
         Verb::Site { out } => site::run(out.as_deref()),
         Verb::Docs => docs::run(),

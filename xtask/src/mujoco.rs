@@ -16,8 +16,8 @@ use crate::ci::Outcome;
 use crate::python::{Environment, system_python};
 use crate::workspace::{cargo, output, root, succeed, target_folder};
 
-/// Packages that the robot and its world are made of.
-const PACKAGES: &[&str] = &["mujoco==4.0.0", "numpy>=2,<3"];
+/// Packages that the robot and its world are made of, and what it speaks over ROS 2.
+const PACKAGES: &[&str] = &["mujoco==4.0.0", "numpy>=2,<3", "cyclonedds==11.0.1"];
 
 /// Folder of the robot and of the loop that plays mazes.
 const FOLDER: &str = "xtask/mujoco";
@@ -40,26 +40,26 @@ const ENOUGH: f64 = 0.95;
 pub(crate) struct Choice {
     /// System that drives
     #[arg(long, default_value = "mslst-better")]
-    system: String,
+    pub(crate) system: String,
     /// Errors of sensors, wheels and floor
     #[arg(long, default_value = "real")]
-    noise: Noise,
+    pub(crate) noise: Noise,
     /// Maze to play; may be given several times. Without it, new mazes of six families
     #[arg(long, value_name = "FILE")]
-    maze: Vec<PathBuf>,
+    pub(crate) maze: Vec<PathBuf>,
     /// Seed of the mazes, the noise and the system
     #[arg(long, default_value_t = 1)]
-    seed: u64,
+    pub(crate) seed: u64,
     /// Number of mazes of each family
     #[arg(long, default_value_t = 1)]
-    each: u64,
+    pub(crate) each: u64,
     /// Write a line of JSON for each maze
     #[arg(long)]
-    json: bool,
+    pub(crate) json: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
-enum Noise {
+pub(crate) enum Noise {
     /// Exact sensors. Wheels slip in any case
     None,
     /// Ranges ± 10 mm, 0.5 % lost beams, a compass ± 1.5° that iron bends by 3°, odometry off by
@@ -137,7 +137,7 @@ fn name(noise: Noise) -> String {
 }
 
 /// Returns the environment and the command; `None` without Python.
-fn made() -> Result<Option<(Environment, PathBuf)>> {
+pub(crate) fn made() -> Result<Option<(Environment, PathBuf)>> {
     let Some(system) = system_python() else {
         return Ok(None);
     };
@@ -146,7 +146,10 @@ fn made() -> Result<Option<(Environment, PathBuf)>> {
         folder: target.join("mujoco"),
     };
     let has_it = |environment: &Environment| {
-        let probe = environment.python().args(["-c", "import mujoco"]).output();
+        let probe = environment
+            .python()
+            .args(["-c", "import mujoco, cyclonedds"])
+            .output();
         probe.is_ok_and(|output| output.status.success())
     };
     if !has_it(&environment) {
@@ -162,12 +165,17 @@ fn made() -> Result<Option<(Environment, PathBuf)>> {
 
 /// Plays the mazes one by one and returns the lines of JSON.
 fn play(choice: &Choice, environment: &Environment, tolman: &Path) -> Result<Vec<Value>> {
+    let mut command = environment.python();
+    command.arg(root().join(FOLDER).join("play.py"));
+    lines(&mut command, choice, tolman)
+}
+
+/// Lets a loop play the chosen mazes and returns its lines of JSON.
+pub(crate) fn lines(command: &mut Command, choice: &Choice, tolman: &Path) -> Result<Vec<Value>> {
     let mazes = match choice.maze.as_slice() {
         [] => fresh(choice, tolman)?,
         mazes => mazes.to_vec(),
     };
-    let mut command = environment.python();
-    command.arg(root().join(FOLDER).join("play.py"));
     command.arg("--tolman").arg(tolman);
     command.args(["--system", &choice.system, "--noise", &name(choice.noise)]);
     command
@@ -177,7 +185,7 @@ fn play(choice: &Choice, environment: &Environment, tolman: &Path) -> Result<Vec
     let lines = child.stdout.take().context("the loop has no output")?;
     let mut runs = Vec::new();
     for line in BufReader::new(lines).lines() {
-        let run: Value = serde_json::from_str(&line?).context("play.py writes lines of JSON")?;
+        let run: Value = serde_json::from_str(&line?).context("the loop writes lines of JSON")?;
         match choice.json {
             true => writeln!(io::stdout(), "{run}")?,
             false => eprintln!("{run}"),
@@ -185,7 +193,7 @@ fn play(choice: &Choice, environment: &Environment, tolman: &Path) -> Result<Vec
         runs.push(run);
     }
     let status = child.wait()?;
-    ensure!(status.success(), "play.py failed: {status}");
+    ensure!(status.success(), "the loop failed: {status}");
     Ok(runs)
 }
 
