@@ -239,7 +239,7 @@ impl Link {
     /// If it is interrupted, or a message cannot be read.
     pub(crate) fn idle(&mut self) -> Result<(), LinkError> {
         self.attend()?;
-        while self.take_odometry()?.is_some() {}
+        self.take_odometry()?;
         while self.take_scan()?.is_some() {}
         self.heard = [Instant::now(); 2];
         thread::sleep(PAUSE);
@@ -290,15 +290,18 @@ impl Link {
         }
     }
 
+    /// Takes the newest odometry. What is older came while the system was thinking.
     fn take_odometry(&mut self) -> Result<Option<(Pose, Time)>, LinkError> {
         let topic = &self.params.odom_topic;
-        let taken = self.odometry.take().map_err(|why| read(topic, &why))?;
-        Ok(taken.map(|(message, _)| {
+        let mut newest = None;
+        while let Some((message, _)) = self.odometry.take().map_err(|why| read(topic, &why))? {
+            newest = Some((Pose::from(message.pose), message.header.stamp));
+        }
+        if newest.is_some() {
             self.heard[0] = Instant::now();
-            let now = (Pose::from(message.pose), message.header.stamp);
-            self.odom = Some(now);
-            now
-        }))
+            self.odom = newest;
+        }
+        Ok(newest)
     }
 
     /// Takes a scan, and says where the frame `odom` lies on the map at its time.
