@@ -27,6 +27,10 @@ impl ConfigFile {
     /// Returns the configuration of an experiment about to run.
     pub(super) fn new(experiment: &Experiment, options: &Options, build: &Build) -> Self {
         let entry = &experiment.entry;
+        let mut configuration = experiment.config.clone();
+        if let Some(caster) = options.caster {
+            configuration.insert("caster".to_owned(), caster.into());
+        }
         Self {
             format: FORMAT.to_owned(),
             version: 1,
@@ -35,7 +39,7 @@ impl ConfigFile {
             seed: options.seed,
             runs: options.runs_of(entry),
             build: build.clone(),
-            configuration: experiment.config.clone(),
+            configuration,
         }
     }
 

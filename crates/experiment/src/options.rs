@@ -69,6 +69,8 @@ pub struct Options {
     pub rows: Vec<String>,
     /// Whether to play few runs, for a first look.
     pub quick: bool,
+    /// Ray caster of the worlds, as the option `--caster` names it; `None` for the usual one.
+    pub caster: Option<&'static str>,
     /// Program that the command to repeat the results begins with.
     pub program: Program,
 }
@@ -161,6 +163,9 @@ impl Options {
         }
         if self.quick {
             command += " --quick";
+        }
+        if let Some(caster) = self.caster {
+            command += &format!(" --caster {caster}");
         }
         if let Some(limit) = self.limit {
             command += &format!(" --limit {limit}");

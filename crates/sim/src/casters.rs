@@ -6,10 +6,10 @@
 //! | [`WallIndex`] | any | draws the walls near by into a one-dimensional depth buffer |
 //! | `ParryPolyline` (feature `parry2d`) | any | parry2d's bounding volume hierarchy, ray by ray: the reference |
 //!
-//! A world chooses one of the first two itself. `ParryPolyline` is there to test them: it shares no
-//! code with them. If you write a caster, or doubt a range in a world of your own, you can compare
-//! the two. So the feature `parry2d` is on by default. Without it the simulator computes the same
-//! bits, builds 14 crates fewer, and `ParryPolyline` does not exist.
+//! A world chooses one of the first two itself, unless the program [chose](CasterChoice) the third,
+//! which shares no code with them. If you write a caster, or doubt a range in a world of your own,
+//! you can compare the two. So the feature `parry2d` is on by default. Without it the simulator
+//! computes the same bits, builds 14 crates fewer, and `ParryPolyline` does not exist.
 //!
 //! **What touching means.** A wall is a closed segment, so a ray into the joint of two walls never
 //! leaks. A ray that passes the free end of a wall within rounding (10⁻⁹ m) may read the end or
@@ -20,6 +20,7 @@ use core::fmt;
 use tolman_geom::{Point, Vector};
 
 mod beam_sweep;
+mod choice;
 mod lattice_walk;
 #[cfg(feature = "parry2d")]
 mod parry;
@@ -27,6 +28,7 @@ mod wall_index;
 
 pub use beam_sweep::BeamSweep;
 pub(crate) use beam_sweep::Seen;
+pub use choice::{CasterChoice, CasterChoiceError};
 pub use lattice_walk::LatticeWalk;
 #[cfg(feature = "parry2d")]
 pub use parry::ParryPolyline;

@@ -5,7 +5,7 @@ use tolman_geom::{Point, Pose};
 use tolman_maze::{Cell, Grid, Maze};
 use tolman_robot::Body;
 
-use crate::casters::{Caster, Lanes, LatticeWalk, WallIndex};
+use crate::casters::{Caster, CasterChoice, Lanes, LatticeWalk, WallIndex};
 use crate::scene::Placed;
 use crate::{Door, contact};
 
@@ -159,14 +159,16 @@ impl World {
         let alike = walls.iter().all(|wall| wall.material == first);
         Ok(Self {
             common_material: alike.then_some(first),
-            walls,
             zones: Vec::new(),
             doors: Vec::new(),
             bounds,
             lattice: None,
-            caster: Arc::clone(&index) as Arc<dyn Caster>,
+            caster: CasterChoice::current()
+                .made(&walls)
+                .unwrap_or_else(|| Arc::clone(&index) as Arc<dyn Caster>),
             index,
             cells: None,
+            walls,
         })
     }
 
@@ -185,8 +187,10 @@ impl World {
         world.bounds = lattice.bounds();
         world.lattice = Some(Arc::new(lattice));
         match LatticeWalk::new(&world, Lanes::Widest) {
-            Some(caster) => Ok(world.with_caster(Arc::new(caster))),
-            None => Ok(world),
+            Some(caster) if CasterChoice::current() == CasterChoice::BuiltIn => {
+                Ok(world.with_caster(Arc::new(caster)))
+            }
+            _ => Ok(world),
         }
     }
 

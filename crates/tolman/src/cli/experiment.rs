@@ -16,7 +16,7 @@ use tolman_experiment::{
 use super::kind::Kind;
 use super::outputs::{self, Output};
 use super::stdout::write_coloured;
-use super::{App, Failure, Result, called, ink, interrupt, maze};
+use super::{App, Failure, Result, called, caster, ink, interrupt, maze};
 
 /// Runs an experiment, shows its tables beside the paper's, and writes a folder of results; without
 /// NAME, gives a tour in a minute
@@ -268,6 +268,7 @@ impl Choice {
             limit: self.limit,
             out: self.out.as_deref().map(Path::to_owned),
             quick: self.quick,
+            caster: caster::unusual(),
             program: Program::current(app.catalogue.program),
         }
     }

@@ -7,6 +7,7 @@ use anyhow::anyhow;
 use clap::Parser;
 use tolman_experiment::{Options, Terminal, command_of_chunks, merge};
 
+use super::caster::Caster;
 use super::experiment::{self, classify, show};
 use super::{App, Failure, OrBadInput, Result, interrupt};
 
@@ -30,6 +31,8 @@ pub(super) struct Arguments {
 struct Whole {
     #[command(flatten)]
     arguments: experiment::Arguments,
+    #[command(flatten)]
+    caster: Caster,
 }
 
 pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -> Result {
@@ -38,6 +41,7 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     let words = shlex::split(&command).unwrap_or_default();
     let words = words.iter().skip_while(|word| *word != "experiment");
     let whole = Whole::try_parse_from(words).or_bad_input()?;
+    whole.caster.install()?;
     let (name, options) = whole.arguments.named(app).ok_or_else(|| {
         let results = results.display();
         Failure::BadInput(anyhow!(

@@ -8,6 +8,7 @@ mod audit;
 mod bar;
 mod brain;
 mod called;
+mod caster;
 mod completions;
 mod demo;
 mod drive;
@@ -52,6 +53,7 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use anyhow::anyhow;
+use caster::Caster;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use failure::{Failure, OrBadInput, Result, Unboxed, unknown};
 use stdout::{Stdout, ink};
@@ -65,6 +67,8 @@ use crate::{Build, Catalogue, Family};
 struct Arguments {
     #[command(subcommand)]
     verb: Verb,
+    #[command(flatten)]
+    caster: Caster,
 }
 
 const EXAMPLES: &str = "\
@@ -249,6 +253,7 @@ pub fn run(catalogue: &Catalogue, build: &Build) -> ExitCode {
     };
     let done = handled.map_err(|error| Failure::Failed(error.into()));
     let done = done.and_then(|()| outputs::check(&matches));
+    let done = done.and_then(|()| arguments.caster.install());
     let done = done.and_then(|()| arguments.verb.carry_out(&app, &mut out));
     // Results come before the failure, even if both streams go to one place.
     let written = out.flush();

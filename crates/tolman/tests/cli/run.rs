@@ -133,3 +133,36 @@ fn a_trace_replays_to_the_bit() {
     let again = tolman_sim::trace::replay::<LaserPioneer>(trace.as_slice()).unwrap();
     assert_eq!(told["steps"], again.tick());
 }
+
+#[test]
+fn rays_by_parry2d_make_a_run_alike() {
+    let run = |caster| {
+        let told = run(&["--start", "marked", "--json", "--caster", caster]).done();
+        let told: serde_json::Value = serde_json::from_str(&told).unwrap();
+        assert_eq!(told["reached"], true, "{caster}");
+        told["steps"].as_u64().unwrap()
+    };
+    assert!(run("built-in").abs_diff(run("parry2d")) <= 1);
+}
+
+#[test]
+fn results_name_the_caster_they_were_made_with() {
+    let folder = folder("caster");
+    let results = |caster| {
+        let words = "experiment baselines --quick --runs 1 --maze corridor.maze --out";
+        let words: Vec<&str> = words.split(' ').collect();
+        let mine = folder.join(caster);
+        let out = mine.to_str().unwrap();
+        tolman_in(&folder, &[&words[..], &[out, "--caster", caster]].concat());
+        let config = fs::read_to_string(mine.join("config.toml")).unwrap();
+        let runs = fs::read_to_string(mine.join("runs.jsonl")).unwrap();
+        (config, runs.lines().count())
+    };
+    fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
+    let (usual, rows) = results("built-in");
+    let (parry, same_rows) = results("parry2d");
+    assert!(!usual.contains("--caster"), "{usual}");
+    assert!(parry.contains("--caster parry2d"), "{parry}");
+    assert!(parry.contains("caster = \"parry2d\""), "{parry}");
+    assert_eq!(rows, same_rows);
+}
