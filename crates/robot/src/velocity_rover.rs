@@ -135,12 +135,16 @@ pub enum RoverError<E> {
         /// Number of beams.
         beams: u32,
     },
-    /// The base never stands still with a scan.
-    #[error(
-        "the base gave no scan at rest for {seconds:.0} s: it does not stop, or its laser is silent"
-    )]
+    /// The base does not stop.
+    #[error("the base still moves {seconds:.0} s after it was told to stop")]
     Restless {
         /// Time since it was told to stop, s.
+        seconds: f64,
+    },
+    /// The base stands still, and its laser gives nothing.
+    #[error("the laser gave no scan for {seconds:.0} s while the base stood still")]
+    NoScan {
+        /// Time at rest, s.
         seconds: f64,
     },
 }
@@ -167,6 +171,9 @@ pub struct VelocityRover<B: VelocityBase> {
 
 /// Longest duration of a motion, as a multiple of what its speeds suggest, and in addition, s.
 const PATIENCE: [f64; 2] = [4.0, 3.0];
+
+/// Longest time until a base that was told to stop has come to rest and given a scan, s.
+const STOPPED: f64 = 10.0;
 
 /// Slowest motion on the way to its end, as a share of the fastest.
 const CREEP: f64 = 0.05;
@@ -214,7 +221,7 @@ impl<B: VelocityBase> VelocityRover<B> {
         let least = shares[0].max(shares[1]);
         let [each, more] = PATIENCE;
         let patience = each * least + more;
-        let mut begun = None;
+        let (mut begun, mut stopped) = (None, None);
         let mut is_moving = least > 0.0;
         // When and where it came to rest.
         let mut rest: Option<(u64, Odometry)> = None;
@@ -230,14 +237,20 @@ impl<B: VelocityBase> VelocityRover<B> {
             self.base.drive(velocity).map_err(RoverError::Base)?;
             let report = self.hear()?;
             // The robot may have rested before this motion.
-            let since = *begun.get_or_insert(report.time_us);
-            let seconds = report.time_us.saturating_sub(since) as f64 * 1e-6;
-            if seconds > patience {
-                if !core::mem::take(&mut is_moving) {
-                    return Err(RoverError::Restless { seconds });
-                }
+            let seconds_since = |then| report.time_us.saturating_sub(then) as f64 * 1e-6;
+            let seconds = seconds_since(*begun.get_or_insert(report.time_us));
+            if is_moving && seconds > patience {
+                is_moving = false;
                 sensed.bump = Some(true);
-                begun = Some(report.time_us);
+            }
+            if !is_moving {
+                let seconds = seconds_since(*stopped.get_or_insert(report.time_us));
+                if seconds > STOPPED {
+                    return Err(match rest.map(|(since, _)| seconds_since(since)) {
+                        Some(seconds) if seconds > 0.5 * STOPPED => RoverError::NoScan { seconds },
+                        _ => RoverError::Restless { seconds },
+                    });
+                }
             }
             let has_moved = rest.is_none_or(|(_, at)| self.is_off(at));
             if is_moving || has_moved {
