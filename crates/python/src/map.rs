@@ -95,6 +95,10 @@ impl PyMap {
     /// Sends a robot by the map from a random place to the goal: by default in the maze in which the
     /// map was learned. `progress` is as for `learn`.
     #[pyo3(signature = (maze = None, *, seed = 1, progress = None))]
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "Python hands over objects of their own"
+    )]
     fn drive(
         &self,
         py: Python<'_>,

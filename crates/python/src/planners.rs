@@ -72,7 +72,6 @@ pub(crate) fn cheapest_path<'py>(
 
 /// Returns the nodes of a path of the fewest arcs and their number: breadth-first search from both
 /// ends, by what networkx keeps of a graph, on the end that has fewer nodes to go on from.
-#[expect(clippy::type_complexity, reason = "a tuple is what Python takes apart")]
 fn fewest_steps<'py>(
     adjacent: &Bound<'py, PyDict>,
     before: &Bound<'py, PyDict>,

@@ -34,6 +34,10 @@ pub(crate) fn systems() -> Vec<String> {
 /// ends it within one action of the robot.
 #[pyfunction]
 #[pyo3(signature = (maze, system = "mslst-better", seed = 1, *, robot = "own", progress = None))]
+#[expect(
+    clippy::needless_pass_by_value,
+    reason = "Python hands over objects of their own"
+)]
 pub(crate) fn learn(
     py: Python<'_>,
     maze: Py<PyMaze>,

@@ -106,9 +106,9 @@ class MazeEnv(gymnasium.Env[_Observation, Any]):
         stands = walls.repeat(sizes[0], axis=0).repeat(sizes[1], axis=1)
         picture = np.full((*stands.shape, 3), 255, np.uint8)
         high = self.maze.height * _CELL + _WALL
-        for x, y in self.maze.goals:
-            row = high - (y + 1) * _CELL - _WALL
-            picture[row : row + _CELL, x * _CELL : (x + 1) * _CELL + _WALL] = (190, 235, 190)
+        for east, north in self.maze.goals:
+            top = high - (north + 1) * _CELL - _WALL
+            picture[top : top + _CELL, east * _CELL : (east + 1) * _CELL + _WALL] = (190, 235, 190)
         picture[stands == 1] = 0
         x, y, heading = self._robot.pose
         scale, middle = _CELL / self._robot.pitch, _WALL / 2
