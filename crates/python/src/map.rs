@@ -92,8 +92,8 @@ impl PyMap {
         std::fs::write(&path, text).map_err(|error| unread(&path.display().to_string(), &error))
     }
 
-    /// Sends a robot by the map from a random place to the goal: by default in the maze in which the
-    /// map was learned. `progress` is as for `learn`.
+    /// Sends a robot by the map from a random place to the goal: by default in the maze in which
+    /// the map was learned. `progress` is as for `learn`.
     #[pyo3(signature = (maze = None, *, seed = 1, progress = None))]
     #[expect(
         clippy::needless_pass_by_value,

@@ -253,8 +253,8 @@ impl PyMaze {
         )
     }
 
-    /// Draws the walls with matplotlib into `ax`, or into new axes, and returns the axes. A cell is a
-    /// unit wide, and the south-west corner lies at the origin.
+    /// Draws the walls with matplotlib into `ax`, or into new axes, and returns the axes. A cell is
+    /// a unit wide, and the south-west corner lies at the origin.
     #[pyo3(signature = (ax = None))]
     fn plot<'py>(
         slf: &Bound<'py, Self>,

@@ -323,8 +323,8 @@ impl<S: Scalar> Network<S> {
         sum
     }
 
-    /// Returns a slot as a candidate for a valid input, summed in lanes, while the prototypes lie in
-    /// turn; `None` if its unit is gone.
+    /// Returns a slot as a candidate for a valid input, summed in lanes, while the prototypes lie
+    /// in turn; `None` if its unit is gone.
     pub(crate) fn candidate(&self, slot: u32, input: &[S]) -> Option<Candidate<S>> {
         let own = self.prototypes.vector(slot as usize)?;
         if !self.live[slot as usize] {

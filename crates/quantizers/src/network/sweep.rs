@@ -11,8 +11,8 @@ use super::search::{Best, Candidate, Plain, Terms, Weighted};
 use super::{Network, squared_distance};
 use crate::{InputError, Nearest, Scalar};
 
-/// Number of values of inputs that are compared with a block of units while it is at hand: half of a
-/// usual second-level cache.
+/// Number of values of inputs that are compared with a block of units while it is at hand: half of
+/// a usual second-level cache.
 const TILE: usize = 65_536;
 
 /// Number of inputs that are too few for products with all units.
@@ -146,7 +146,8 @@ impl<S: Scalar, F: Fold<S>> Sweep<'_, S, F> {
                 }
             }
         }
-        // What follows looks at sums one by one, which else keeps the compiler from summing in lanes.
+        // What follows looks at sums one by one, which else keeps the compiler from summing in
+        // lanes.
         let sums = core::hint::black_box(sums);
         sums.map(
             #[inline(always)]
@@ -157,9 +158,9 @@ impl<S: Scalar, F: Fold<S>> Sweep<'_, S, F> {
 
 impl<S: Scalar> Network<S> {
     /// Appends to `found` the unit nearest to each row of `rows`, which holds inputs in turn. Units
-    /// and distances are those of [`nearest`](Self::nearest), to the bit, but many times as fast with
-    /// many features: products of inputs and units tell which unit is the nearest, unless two are so
-    /// near that rounding could have exchanged them. Then distances are compared.
+    /// and distances are those of [`nearest`](Self::nearest), to the bit, but found many times as
+    /// fast with many features: products of inputs and units tell which unit is the nearest, unless
+    /// two are so near that rounding could have exchanged them. Then distances are compared.
     ///
     /// # Errors
     /// If `rows` is not a whole number of inputs, one of them is invalid, or there are no units.
@@ -322,8 +323,8 @@ impl<S: Scalar> Products<S> {
     /// lets one tell.
     ///
     /// With n features and the unit roundoff u, lengths, products and distances are each off by at
-    /// most (n + 4) u (‖x‖ + ‖w‖)², from the centre, as n terms are summed; subnormal terms add less
-    /// than the smallest normal number each. So are both values that are compared.
+    /// most (n + 4) u (‖x‖ + ‖w‖)², from the centre, as n terms are summed; subnormal terms add
+    /// less than the smallest normal number each. So are both values that are compared.
     fn doubtful(&self, features: usize) -> impl Iterator<Item = usize> {
         let terms = (features + 4) as f64;
         let longest = libm::sqrt(self.longest);
