@@ -1,7 +1,7 @@
 //! Any quantizer, for 32-bit or 64-bit numbers, as the estimators of `python/tolman_quantizers` use
 //! it.
 
-mod config;
+pub(crate) mod config;
 mod graph;
 mod nearest;
 
@@ -9,9 +9,9 @@ use numpy::ndarray::ArrayView2;
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
-use tolman_quantizers::{Gng, InputError, Quantizer, Scalar, Soinn};
+use tolman_quantizers::{Gng, InputError, Quantizer, ReplayQuantizer, Scalar, Soinn};
 
-use self::config::{gng_config, named, soinn_config};
+use self::config::{gng_config, named, replay_config, soinn_config};
 use self::graph::Graph;
 use crate::errors::{refused, wrong};
 use crate::params::Params;
@@ -50,6 +50,19 @@ impl<S: Scalar + serde::Serialize> Learner<S> for Soinn<S> {
     }
 }
 
+/// A growing neural gas with a memory of past inputs.
+type Replay<S> = ReplayQuantizer<S, Gng<S>>;
+
+impl<S: Scalar + serde::Serialize> Learner<S> for Replay<S> {
+    fn learn(&mut self, inputs: &[S], _: usize) -> Result<(), InputError> {
+        each(self, inputs)
+    }
+
+    fn saved(&self) -> postcard::Result<Vec<u8>> {
+        postcard::to_allocvec(self)
+    }
+}
+
 fn each<S: Scalar>(quantizer: &mut impl Quantizer<S>, inputs: &[S]) -> Result<(), InputError> {
     let dimension = quantizer.network().dimension();
     for input in inputs.chunks_exact(dimension) {
@@ -57,6 +70,19 @@ fn each<S: Scalar>(quantizer: &mut impl Quantizer<S>, inputs: &[S]) -> Result<()
     }
     Ok(())
 }
+
+/// Returns the number of rows to learn between two looks at signals and readers: whole batches, as
+/// many as pay for turning all units twice.
+fn step(features: usize, units: usize, batch: usize) -> usize {
+    match batch {
+        0 | 1 => few(features),
+        // At least as if there were some hundred units: the rows may have to be copied.
+        _ => (EFFORT / (features * units.max(500)) / batch).max(1) * batch,
+    }
+}
+
+/// Number of features compared with units by products in some hundredths of a second.
+const EFFORT: usize = 500_000_000;
 
 type Any<S> = Shared<Box<dyn Learner<S>>>;
 
@@ -91,6 +117,8 @@ macro_rules! either {
 #[pyclass(name = "Learner", module = "tolman_quantizers._quantizers", frozen)]
 pub(crate) struct PyLearner {
     any: AnyLearner,
+    /// What [`Self::resumed`] has to be told.
+    kind: &'static str,
 }
 
 #[pymethods]
@@ -105,37 +133,33 @@ impl PyLearner {
         params: &Bound<'_, PyDict>,
     ) -> PyResult<Self> {
         let params = Params(params);
-        let any = match kind {
-            "gng" => {
-                let config = gng_config(&params)?;
-                match single {
-                    true => AnyLearner::single(Gng::new(dimension, config).map_err(named)?),
-                    false => AnyLearner::double(Gng::new(dimension, config).map_err(named)?),
-                }
-            }
+        match kind {
+            "gng" => Self::gng(dimension, single, &params),
             "soinn" => {
                 let config = soinn_config(&params)?;
-                match single {
+                let any = match single {
                     true => AnyLearner::single(Soinn::new(dimension, config).map_err(named)?),
                     false => AnyLearner::double(Soinn::new(dimension, config).map_err(named)?),
-                }
+                };
+                Ok(Self { any, kind: "soinn" })
             }
-            _ => return Err(unknown(kind)),
-        };
-        Ok(Self { any })
+            _ => Err(unknown(kind)),
+        }
     }
 
     /// Returns the quantizer that [`Self::saved`] described.
     #[staticmethod]
     fn resumed(kind: &str, single: bool, saved: &[u8]) -> PyResult<Self> {
-        let any = match (kind, single) {
-            ("gng", true) => AnyLearner::single(read::<Gng<f32>>(saved)?),
-            ("gng", false) => AnyLearner::double(read::<Gng<f64>>(saved)?),
-            ("soinn", true) => AnyLearner::single(read::<Soinn<f32>>(saved)?),
-            ("soinn", false) => AnyLearner::double(read::<Soinn<f64>>(saved)?),
+        let (kind, any) = match (kind, single) {
+            ("gng", true) => ("gng", AnyLearner::single(read::<Gng<f32>>(saved)?)),
+            ("gng", false) => ("gng", AnyLearner::double(read::<Gng<f64>>(saved)?)),
+            ("replay", true) => ("replay", AnyLearner::single(read::<Replay<f32>>(saved)?)),
+            ("replay", false) => ("replay", AnyLearner::double(read::<Replay<f64>>(saved)?)),
+            ("soinn", true) => ("soinn", AnyLearner::single(read::<Soinn<f32>>(saved)?)),
+            ("soinn", false) => ("soinn", AnyLearner::double(read::<Soinn<f64>>(saved)?)),
             _ => return Err(unknown(kind)),
         };
-        Ok(Self { any })
+        Ok(Self { any, kind })
     }
 
     /// Returns the whole state of the quantizer.
@@ -177,10 +201,10 @@ impl PyLearner {
             if order.is_some_and(|order| order.iter().any(|row| *row < 0 || *row as usize >= count)) {
                 return Err(wrong(format!("order: it names a row beyond the {count} of X")));
             }
-            let step = few(x.ncols()).max(batch);
             let mut piece = Vec::new();
             let work = |from: usize| {
-                let until = count.min(from + step);
+                let units = learner.read().network().len();
+                let until = count.min(from + step(x.ncols(), units, batch));
                 let learned = match order {
                     None => learner.write().learn(&flat(&x, from..until), batch),
                     Some(order) => {
@@ -255,6 +279,12 @@ impl PyLearner {
         })
     }
 
+    /// Returns what [`Self::resumed`] has to be told.
+    #[getter]
+    const fn kind(&self) -> &'static str {
+        self.kind
+    }
+
     /// Returns whether the numbers have 32 bits.
     #[getter]
     fn single(&self) -> bool {
@@ -263,6 +293,37 @@ impl PyLearner {
 
     fn __len__(&self, py: Python<'_>) -> usize {
         py.detach(|| either!(&self.any, learner => learner.read().network().len()))
+    }
+}
+
+impl PyLearner {
+    /// Returns an empty growing neural gas, with a memory of past inputs if the parameters ask for
+    /// one.
+    fn gng(dimension: usize, single: bool, params: &Params<'_, '_>) -> PyResult<Self> {
+        let config = gng_config(params)?;
+        let replay = replay_config(params)?;
+        let any = match single {
+            true => {
+                let gng = Gng::new(dimension, config).map_err(named)?;
+                match replay {
+                    None => AnyLearner::single(gng),
+                    Some(replay) => {
+                        AnyLearner::single(Replay::<f32>::new(gng, replay).map_err(named)?)
+                    }
+                }
+            }
+            false => {
+                let gng = Gng::new(dimension, config).map_err(named)?;
+                match replay {
+                    None => AnyLearner::double(gng),
+                    Some(replay) => {
+                        AnyLearner::double(Replay::<f64>::new(gng, replay).map_err(named)?)
+                    }
+                }
+            }
+        };
+        let kind = if replay.is_some() { "replay" } else { "gng" };
+        Ok(Self { any, kind })
     }
 }
 

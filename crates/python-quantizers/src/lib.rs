@@ -7,6 +7,7 @@ extern crate alloc;
 
 mod errors;
 mod learner;
+mod memory;
 mod params;
 mod rows;
 mod shared;
@@ -16,4 +17,6 @@ mod shared;
 mod _quantizers {
     #[pymodule_export]
     use crate::learner::PyLearner;
+    #[pymodule_export]
+    use crate::memory::PyMemory;
 }

@@ -34,7 +34,7 @@ def beside():
         start_poss=[inputs[0], inputs[1]], eps_b=0.2, eps_n=0.006, max_age=50, lambda_=PERIOD, alpha=0.5, d=0.995, max_nodes=UNITS
     )
     # MDP sums distances that are not squared.
-    ours = GNG(max_units=UNITS, growth_period=PERIOD, error="absolute")
+    ours = GNG(max_units=UNITS, growth_period=PERIOD, error="absolute", n_epochs=1)
     theirs.train(inputs)
     ours.fit(inputs)
     positions = theirs.get_nodes_position()

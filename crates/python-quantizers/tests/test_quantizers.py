@@ -6,7 +6,7 @@ import time
 
 import numpy as np
 import pytest
-from tolman_quantizers import GNG, SOINN, EquilibriumGNG, NotFittedError
+from tolman_quantizers import GNG, SOINN, AssociativeMemory, EquilibriumGNG, NotFittedError
 
 ALL = [GNG(max_units=30, growth_period=20), EquilibriumGNG(0.05, growth_period=20), SOINN()]
 
@@ -337,6 +337,48 @@ class TestMiniBatches:
         for wrong in (0, 2.5, 10**6):
             with pytest.raises(ValueError, match="batch_size is"):
                 GNG(batch_size=wrong).fit(points(100))
+
+
+class TestMemories:
+    def test_pairs_are_recalled_from_either_part(self):
+        patterns = np.array([[0.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 0.0]])
+        memory = AssociativeMemory().associate(patterns[:-1], patterns[1:])
+        assert (memory.response(patterns[:-1] + 0.1) == patterns[1:]).all()
+        assert (memory.key(patterns[1:] - 0.1) == patterns[:-1]).all()
+        assert (memory.chain(patterns[0], reach=0.2) == patterns[1:]).all() and len(memory) == 3
+        memory.associate(patterns[:1], [[5.0, 5.0]])
+        assert memory.responses(patterns[0], 0.1).tolist() == [[0.0, 1.0], [5.0, 5.0]]
+        assert memory.keys([5.0, 5.0], 0.1).tolist() == [[0.0, 0.0]] and memory.keys([9.0, 9.0], 0.1).shape == (0, 2)
+        cycle = AssociativeMemory().associate(patterns, np.roll(patterns, -1, axis=0))
+        assert len(cycle.chain(patterns[0], reach=0.1, most=9)) == 9
+
+    @pytest.mark.parametrize(
+        ("ask", "said"),
+        [
+            (lambda m: AssociativeMemory().response([[0.0]]), "call associate first"),
+            (lambda m: AssociativeMemory(max_age=0).associate([[0.0]], [[1.0]]), "max_age is 0"),
+            (lambda m: m.associate([[0.0, 1.0]], [[1.0], [2.0]]), "keys has 1 rows and responses has 2"),
+            (lambda m: m.associate([[0.0, 1.0]], [[np.nan]]), "row 0: feature 2 is NaN"),
+            (lambda m: m.response([[0.0]]), "row 0: .*2"),
+            (lambda m: m.response([0.0]), "keys has 1 dimensions"),
+            (lambda m: m.responses([[0.0, 0.0]], 1.0), "key has 2 dimensions"),
+            (lambda m: m.chain([0.0, 1.0], reach=1.0), "the memory cannot answer"),
+        ],
+    )
+    def test_wrong_input_is_named(self, ask, said):
+        with pytest.raises(ValueError, match=said):
+            ask(AssociativeMemory().associate([[0.0, 1.0]], [[2.0]]))
+
+    def test_a_stream_that_goes_round_slowly_is_remembered(self):
+        angles = np.arange(5000) * 0.00125
+        ring = np.column_stack([np.cos(angles), np.sin(angles)])
+        plain, remembering = (GNG(max_units=30, replay=replay).partial_fit(ring) for replay in (None, 8))
+        assert remembering.quantization_error(ring) < 0.1 * plain.quantization_error(ring)
+        resumed = pickle.loads(pickle.dumps(GNG(max_units=30, replay=8).partial_fit(ring[:3000]))).partial_fit(ring[3000:])
+        assert (resumed.units_ == remembering.units_).all()
+        for wrong, said in (({"replay": 0}, "replay is 0"), ({"replay": 8, "replay_memory": "all"}, "replay_memory is 'all'")):
+            with pytest.raises(ValueError, match=said):
+                GNG(**wrong).fit(ring)
 
 
 class TestWhatANotebookShows:

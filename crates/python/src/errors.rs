@@ -14,11 +14,11 @@ pub(crate) fn wrong(sentence: String) -> PyErr {
     PyValueError::new_err(sentence)
 }
 
-/// Returns Python's `OSError` for a file that cannot be read, with the file's name.
+/// Returns Python's `OSError` for a file that cannot be read or written, with the file's name.
 pub(crate) fn unread(name: &str, error: &io::Error) -> PyErr {
     PyErr::from(io::Error::new(
         error.kind(),
-        format!("cannot read {name}: {error}"),
+        format!("cannot open {name}: {error}"),
     ))
 }
 

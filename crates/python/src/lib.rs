@@ -4,11 +4,13 @@
 //! happens here, with Python's lock released.
 
 mod bump_map;
+mod drive;
 mod errors;
 mod log;
 mod map;
 mod maze;
 mod planners;
+mod replay;
 mod robot;
 mod system;
 
@@ -18,6 +20,8 @@ mod _tolman {
     #[pymodule_export]
     use crate::bump_map::PyBumpMap;
     #[pymodule_export]
+    use crate::drive::PyDrive;
+    #[pymodule_export]
     use crate::log::map_log;
     #[pymodule_export]
     use crate::map::PyMap;
@@ -25,6 +29,8 @@ mod _tolman {
     use crate::maze::PyMaze;
     #[pymodule_export]
     use crate::planners::cheapest_path;
+    #[pymodule_export]
+    use crate::replay::PyReplay;
     #[pymodule_export]
     use crate::robot::PyRobot;
     #[pymodule_export]

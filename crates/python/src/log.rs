@@ -49,5 +49,7 @@ pub(crate) fn map_log(py: Python<'_>, path: PathBuf, system: &str) -> PyResult<P
         certainty,
         is_right: None,
         closures: Some(closures),
+        file: Err("it comes from a log: tolman map --log writes such maps".to_owned()),
+        lesson: None,
     })
 }

@@ -1,3 +1,5 @@
+use std::path::PathBuf;
+
 use numpy::PyArray2;
 use numpy::ndarray::Array2;
 use pyo3::prelude::*;
@@ -5,8 +7,12 @@ use pyo3::types::PyDict;
 use tolman_geom::Pose;
 use tolman_robot::{Landmark, MapPlace, MapView};
 
-use crate::errors::wrong;
+use crate::drive::PyDrive;
+use crate::errors::{unread, wrong};
+use crate::maze::PyMaze;
+use crate::replay::PyReplay;
 use crate::robot::tuple;
+use crate::system::{Lesson, drive, opened};
 
 /// A map that a system has learned.
 #[pyclass(name = "Map", module = "tolman", frozen)]
@@ -30,6 +36,10 @@ pub(crate) struct PyMap {
     /// Number of places that were recognized again; only for a log.
     #[pyo3(get)]
     pub(crate) closures: Option<usize>,
+    /// The map as the command reads it, or why there is no such file.
+    pub(crate) file: Result<String, String>,
+    /// What it was learned from; `None` for a log or a file.
+    pub(crate) lesson: Option<Lesson>,
 }
 
 #[pymethods]
@@ -57,14 +67,79 @@ impl PyMap {
     /// simulated robot it is the true way, for a log the one that was found.
     #[getter]
     fn path<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let mut values = Vec::with_capacity(3 * self.poses.len());
-        for pose in &self.poses {
-            let (x, y, heading) = tuple(*pose);
-            values.extend([x, y, heading]);
-        }
-        let rows = Array2::from_shape_vec((self.poses.len(), 3), values);
-        let rows = rows.map_err(|error| wrong(error.to_string()))?;
-        Ok(PyArray2::from_owned_array(py, rows))
+        table(py, &self.poses)
+    }
+
+    /// Reads a map that [`Self::save`] or `tolman learn` wrote.
+    #[staticmethod]
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "Python hands over a path of its own"
+    )]
+    fn open(path: PathBuf) -> PyResult<Self> {
+        let name = path.display().to_string();
+        let text = std::fs::read_to_string(&path).map_err(|error| unread(&name, &error))?;
+        opened(name, text)
+    }
+
+    /// Writes the map to a file that the command reads, as `tolman map show` and `tolman drive`.
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "Python hands over a path of its own"
+    )]
+    fn save(&self, path: PathBuf) -> PyResult<()> {
+        let text = self.text()?;
+        std::fs::write(&path, text).map_err(|error| unread(&path.display().to_string(), &error))
+    }
+
+    /// Sends a robot by the map from a random place to the goal: by default in the maze in which
+    /// the map was learned. `progress` is as for `learn`.
+    #[pyo3(signature = (maze = None, *, seed = 1, progress = None))]
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "Python hands over objects of their own"
+    )]
+    fn drive(
+        &self,
+        py: Python<'_>,
+        maze: Option<Py<PyMaze>>,
+        seed: u64,
+        progress: Option<Py<PyAny>>,
+    ) -> PyResult<PyDrive> {
+        let learned_in = self.lesson.as_ref().map(|lesson| &lesson.maze);
+        let maze = maze
+            .as_ref()
+            .or(learned_in)
+            .ok_or_else(|| wrong("maze: the map does not know its maze, so give it".to_owned()))?;
+        let (text, maze) = (self.text()?, maze.get());
+        py.detach(|| drive(text, maze, seed, progress.as_ref()))
+    }
+
+    /// Returns the replay of the learning, which a notebook shows. The system learns again for it.
+    fn replay(&self, py: Python<'_>) -> PyResult<PyReplay> {
+        let lesson = self
+            .lesson
+            .as_ref()
+            .ok_or_else(|| wrong("there is no replay of a map from a log or a file".to_owned()))?;
+        lesson.replay(py).map(PyReplay)
+    }
+
+    /// Returns the places as a frame of pandas: a row a place, its id as the index, x and y, m, and
+    /// its landmark, each as far as it is known.
+    fn to_frame<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        pictures(py)?.call_method1("frame_of_places", (self.places(py)?,))
+    }
+
+    /// Draws places, links and the robot's way with matplotlib into `ax`, or into new axes, and
+    /// returns the axes.
+    #[pyo3(signature = (ax = None))]
+    fn plot<'py>(
+        &self,
+        py: Python<'py>,
+        ax: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let drawn = (ax, self.places(py)?, self.links(), self.path(py)?);
+        pictures(py)?.call_method1("plot_map", drawn)
     }
 
     /// Returns the map as a directed graph of networkx. Its nodes are ids, with the attributes x
@@ -162,6 +237,31 @@ impl PyMap {
             self.system
         )
     }
+}
+
+impl PyMap {
+    /// Returns the text of its file.
+    fn text(&self) -> PyResult<&str> {
+        let text = self.file.as_deref();
+        text.map_err(|why| wrong(format!("this map has no file: {why}")))
+    }
+}
+
+/// Returns the module that draws with matplotlib.
+pub(crate) fn pictures(py: Python<'_>) -> PyResult<Bound<'_, PyModule>> {
+    py.import("tolman._pictures")
+}
+
+/// Returns poses, one row each: x and y, m, and heading, rad.
+pub(crate) fn table<'py>(py: Python<'py>, poses: &[Pose]) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let mut values = Vec::with_capacity(3 * poses.len());
+    for pose in poses {
+        let (x, y, heading) = tuple(*pose);
+        values.extend([x, y, heading]);
+    }
+    let rows = Array2::from_shape_vec((poses.len(), 3), values);
+    let rows = rows.map_err(|error| wrong(error.to_string()))?;
+    Ok(PyArray2::from_owned_array(py, rows))
 }
 
 /// Returns the attributes of a place: `position` and `landmark`, each only if it is known.

@@ -12,6 +12,7 @@ use tolman_maze::{Cell, Direction, Format, Grid, Maze, MazeFile};
 use tolman_planners::{Arcs, path_to};
 
 use crate::errors::{reasons, refused, unread, wrong};
+use crate::map::pictures;
 
 /// A cell as Python writes it: column from the west, row from the south.
 pub(crate) type CellTuple = (u16, u16);
@@ -250,6 +251,16 @@ impl PyMaze {
             width + 4,
             height + 4
         )
+    }
+
+    /// Draws the walls with matplotlib into `ax`, or into new axes, and returns the axes. A cell is
+    /// a unit wide, and the south-west corner lies at the origin.
+    #[pyo3(signature = (ax = None))]
+    fn plot<'py>(
+        slf: &Bound<'py, Self>,
+        ax: Option<Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        pictures(slf.py())?.call_method1("plot_maze", (ax, slf))
     }
 
     /// Returns what a notebook shows.

@@ -34,6 +34,9 @@ pub(crate) fn cheapest_path<'py>(
     }
     // Undirected graphs have no predecessors.
     let before = inner("_pred").or_else(|| inner("_adj"));
+    if let (Some(adjacent), Some(before), None) = (inner("_adj"), &before, weight) {
+        return fewest_steps(adjacent.cast()?, before.cast()?, source, target);
+    }
     let known = RefCell::new(Known {
         nodes: Vec::new(),
         numbers: PyDict::new(graph.py()),
@@ -65,6 +68,63 @@ pub(crate) fn cheapest_path<'py>(
         let nodes = path.iter().map(|node| known.nodes[*node as usize].clone());
         (nodes.collect(), cost)
     }))
+}
+
+/// Returns the nodes of a path of the fewest arcs and their number: breadth-first search from both
+/// ends, by what networkx keeps of a graph, on the end that has fewer nodes to go on from.
+fn fewest_steps<'py>(
+    adjacent: &Bound<'py, PyDict>,
+    before: &Bound<'py, PyDict>,
+    source: &Bound<'py, PyAny>,
+    target: &Bound<'py, PyAny>,
+) -> PyResult<Option<(Vec<Bound<'py, PyAny>>, u32)>> {
+    let py = adjacent.py();
+    // For each node that an end has met, the node it was met from.
+    let (from_source, from_target) = (PyDict::new(py), PyDict::new(py));
+    from_source.set_item(source, py.None())?;
+    from_target.set_item(target, py.None())?;
+    let (mut ahead, mut back) = (vec![source.clone()], vec![target.clone()]);
+    let mut middle = from_target.contains(source)?.then(|| source.clone());
+    while middle.is_none() && !ahead.is_empty() && !back.is_empty() {
+        let (level, arcs, met, others) = match ahead.len() <= back.len() {
+            true => (&mut ahead, adjacent, &from_source, &from_target),
+            false => (&mut back, before, &from_target, &from_source),
+        };
+        'level: for tail in core::mem::take(level) {
+            let Some(heads) = arcs.get_item(&tail)? else {
+                continue;
+            };
+            for head in heads.try_iter()? {
+                let head = head?;
+                if met.contains(&head)? {
+                    continue;
+                }
+                met.set_item(&head, &tail)?;
+                if others.contains(&head)? {
+                    middle = Some(head);
+                    break 'level;
+                }
+                level.push(head);
+            }
+        }
+    }
+    let Some(middle) = middle else {
+        return Ok(None);
+    };
+    let mut nodes = vec![middle.clone()];
+    let mut at = middle.clone();
+    while let Some(node) = from_source.get_item(&at)?.filter(|node| !node.is_none()) {
+        nodes.push(node.clone());
+        at = node;
+    }
+    nodes.reverse();
+    at = middle;
+    while let Some(node) = from_target.get_item(&at)?.filter(|node| !node.is_none()) {
+        nodes.push(node.clone());
+        at = node;
+    }
+    let steps = nodes.len() as u32 - 1;
+    Ok(Some((nodes, steps)))
 }
 
 /// A graph that numbers its nodes as a search meets them.

@@ -189,6 +189,12 @@ impl PyRobot {
         self.robot.model().config().ring.max_range
     }
 
+    /// Returns the distance between the middles of two cells side by side, m.
+    #[getter]
+    fn pitch(&self) -> f64 {
+        self.course.pitch()
+    }
+
     /// Returns the number of steps after which a run has failed, as in the tables of MSLST's paper.
     /// It is proportional to the length of all corridors.
     #[getter]

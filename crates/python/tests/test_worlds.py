@@ -120,6 +120,10 @@ class TestWalls:
     def test_a_notebook_draws_it(self):
         drawn = Maze(HOOK)._repr_html_()
         assert drawn.startswith("<svg") and ">S<" in drawn and ">G<" in drawn
+        matplotlib = pytest.importorskip("matplotlib")
+        matplotlib.use("Agg")
+        axes = Maze(HOOK).plot()
+        assert {text.get_text() for text in axes.texts} == {"S", "G"} and Maze(HOOK).plot(axes) is axes
 
 
 def test_a_robot_without_noise_drives_as_told():
@@ -212,6 +216,24 @@ class TestEnvironment:
         for wrong in ({"maze": 3}, {"maize": Maze(HOOK)}):
             with pytest.raises(ValueError, match="options has"):
                 env.reset(options=wrong)
+
+    def test_a_picture_shows_walls_goals_and_the_robot(self):
+        from tolman.gym import MazeEnv
+
+        env = MazeEnv(Maze(HOOK), start="marked", noise=False, render_mode="rgb_array")
+        env.reset(seed=1)
+        picture = env.render()
+        assert picture.shape == (2 * 24 + 3, 3 * 24 + 3, 3) and picture.dtype == np.uint8
+        assert (picture[0] == 0).all() and (picture[:, -1] == 0).all()
+        x, y, _ = env._robot.pose
+        at = (len(picture) - round(y / env._robot.pitch * 24) - 2, round(x / env._robot.pitch * 24) + 1)
+        assert tuple(picture[at]) == (210, 40, 40)
+        assert (picture == (190, 235, 190)).all(axis=2).sum() > 100
+        before = picture.copy()
+        env.step(np.array([0.0, 1.0], np.float32))
+        assert (env.render() != before).any() and MazeEnv(Maze(HOOK)).render() is None
+        with pytest.raises(ValueError, match="render_mode is 'human'"):
+            MazeEnv(render_mode="human")
 
     def test_time_is_up_after_max_steps(self):
         from tolman.gym import MazeEnv

@@ -11,7 +11,7 @@ use decay::Decay;
 pub use config::{ErrorKind, GngConfig, GrowthGate, Removal, StepOrder, Utility};
 pub use saved::SavedGng;
 
-use crate::network::{Best, Candidate};
+use crate::network::{Best, Candidate, FEW};
 use crate::{
     Events, InputError, Lanes, NearestTwo, Network, Quantizer, QuantizerConfigError, Scalar,
     UnitId, UnitSearch, UnknownUnit,
@@ -265,17 +265,23 @@ impl<S: Scalar> Gng<S> {
                     _ => (rows.len() / dimension).min(self.until_growth()),
                 };
                 let (learned, later) = rows.split_at(now * dimension);
-                match self.network.nearest_by_product(learned) {
-                    Some(slots) if self.network.len() >= 2 => self.learn_by(learned, &slots),
-                    _ => {
-                        for input in learned.chunks_exact(dimension) {
-                            self.observe(input)?;
-                        }
+                let products = match now {
+                    0..FEW => None,
+                    _ => self.network.nearest_by_product(learned),
+                };
+                if let Some(products) = products {
+                    self.network.lie_in_turn(true);
+                    self.learn_by(learned, &products.best);
+                } else {
+                    self.network.lie_in_turn(false);
+                    for input in learned.chunks_exact(dimension) {
+                        self.observe(input)?;
                     }
                 }
                 rows = later;
             }
         }
+        self.network.lie_in_turn(false);
         Ok(())
     }
 
@@ -288,13 +294,12 @@ impl<S: Scalar> Gng<S> {
         usize::try_from(period - self.steps % period).unwrap_or(usize::MAX)
     }
 
-    /// Learns from inputs, given the slots of the two units that were nearest to each before.
-    fn learn_by(&mut self, rows: &[S], slots: &[(u32, u32)]) {
+    /// Learns from inputs, given the two units that were nearest to each before.
+    fn learn_by(&mut self, rows: &[S], before: &[Best<S>]) {
         let inputs = rows.chunks_exact(self.network.dimension());
-        for (input, (first, second)) in inputs.zip(slots) {
-            let first = self.network.candidate(*first, input);
-            let second = self.network.candidate(*second, input);
-            let best = match (first, second) {
+        for (input, before) in inputs.zip(before) {
+            let now = |slot| self.network.candidate(slot, input);
+            let best = match (now(before.first.slot), now(before.second.slot)) {
                 (Some(first), Some(second)) => {
                     let mut best = Best::none();
                     best.offer(first);
@@ -302,7 +307,12 @@ impl<S: Scalar> Gng<S> {
                     best
                 }
                 // One of them has gone meanwhile.
-                _ => self.network.search(input),
+                _ => {
+                    self.network.lie_in_turn(false);
+                    let best = self.network.search(input);
+                    self.network.lie_in_turn(true);
+                    best
+                }
             };
             self.step(input, best);
         }

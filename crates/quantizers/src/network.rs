@@ -30,6 +30,7 @@ pub use kernels::{Lanes, UnitSearch};
 pub use measure::QuantizationError;
 pub(crate) use search::{Best, Candidate};
 pub use snapshot::{NetworkSnapshot, SnapshotUnit};
+pub(crate) use sweep::FEW;
 
 /// The units of a quantizer, their prototypes and the edges between them.
 ///
@@ -322,22 +323,26 @@ impl<S: Scalar> Network<S> {
         sum
     }
 
-    /// Returns a slot as a candidate for a valid input, or `None` if its unit is gone.
+    /// Returns a slot as a candidate for a valid input, summed in lanes, while the prototypes lie
+    /// in turn; `None` if its unit is gone.
     pub(crate) fn candidate(&self, slot: u32, input: &[S]) -> Option<Candidate<S>> {
+        let own = self.prototypes.vector(slot as usize)?;
         if !self.live[slot as usize] {
             return None;
         }
-        let mut squared_distance = S::ZERO;
-        for (feature, (value, own)) in input.iter().zip(self.values(slot as usize)).enumerate() {
-            let square = (*value - own) * (*value - own);
-            squared_distance += self
-                .weights()
-                .map_or(square, |weights| weights[feature] * square);
-        }
+        let squared_distance = self.kernels.run(
+            #[inline(always)]
+            || squared_distance(input, own, self.weights()),
+        );
         Some(Candidate {
             squared_distance,
             slot,
         })
+    }
+
+    /// Lets prototypes lie in turn, for many moves, or no longer, for searches.
+    pub(crate) fn lie_in_turn(&mut self, in_turn: bool) {
+        self.prototypes.lie_in_turn(in_turn);
     }
 
     /// Returns ‖x‖² of an input, as the distance measures it.
@@ -575,6 +580,35 @@ impl<S: Scalar> Network<S> {
         self.live.resize(to, true);
         per_unit.truncate(to);
     }
+}
+
+/// Returns the squared distance of two vectors, in which each lane sums its own features.
+#[inline(always)]
+fn squared_distance<S: Scalar>(a: &[S], b: &[S], weights: Option<&[S]>) -> S {
+    match weights {
+        None => sum_in_lanes(a, b, |_, square| square),
+        Some(weights) => sum_in_lanes(a, b, |at, square| weights[at] * square),
+    }
+}
+
+#[inline(always)]
+fn sum_in_lanes<S: Scalar>(a: &[S], b: &[S], term: impl Fn(usize, S) -> S) -> S {
+    const LANES: usize = prototypes::LANES;
+    let mut sums = [S::ZERO; LANES];
+    let pieces = a.chunks_exact(LANES).zip(b.chunks_exact(LANES));
+    for (piece, (a, b)) in pieces.enumerate() {
+        for (lane, sum) in sums.iter_mut().enumerate() {
+            let difference = a[lane] - b[lane];
+            *sum += term(piece * LANES + lane, difference * difference);
+        }
+    }
+    let whole = a.len() / LANES * LANES;
+    let mut sum = sums.into_iter().fold(S::ZERO, |sum, lane| sum + lane);
+    for at in whole..a.len() {
+        let difference = a[at] - b[at];
+        sum += term(at, difference * difference);
+    }
+    sum
 }
 
 /// An edge and how often its ends have won since it was made or renewed.

@@ -40,6 +40,14 @@ pub trait Scalar:
     #[doc(hidden)]
     fn mul_add(self, factor: Self, addend: Self) -> Self;
 
+    /// The distance of 1 from the next number.
+    #[doc(hidden)]
+    const EPSILON: f64;
+
+    /// The smallest positive number that is not subnormal.
+    #[doc(hidden)]
+    const TINY: f64;
+
     /// Maximum squared distance. It leaves room for sums of errors.
     #[doc(hidden)]
     const MAX_SQUARED_DISTANCE: f64;
@@ -62,6 +70,8 @@ impl Scalar for f32 {
 
     const ZERO: Self = 0.0;
     const INFINITY: Self = f32::INFINITY;
+    const EPSILON: f64 = f32::EPSILON as f64;
+    const TINY: f64 = f32::MIN_POSITIVE as f64;
     const MAX_SQUARED_DISTANCE: f64 = 1e38;
 
     #[inline(always)]
@@ -85,6 +95,8 @@ impl Scalar for f64 {
 
     const ZERO: Self = 0.0;
     const INFINITY: Self = f64::INFINITY;
+    const EPSILON: f64 = f64::EPSILON;
+    const TINY: f64 = f64::MIN_POSITIVE;
     const MAX_SQUARED_DISTANCE: f64 = 1e240;
 
     #[inline(always)]

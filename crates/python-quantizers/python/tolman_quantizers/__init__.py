@@ -8,6 +8,7 @@
 """
 
 from ._estimators import GNG, SOINN, EquilibriumGNG
+from ._memory import AssociativeMemory
 from ._protocol import NotFittedError
 
-__all__ = ["GNG", "SOINN", "EquilibriumGNG", "NotFittedError"]
+__all__ = ["GNG", "SOINN", "AssociativeMemory", "EquilibriumGNG", "NotFittedError"]

@@ -32,6 +32,7 @@ class _Quantizer(Estimator):
 
     _kind: str
     _learner: Learner | None = None
+    max_age: int
     n_epochs: int | str
     shuffle: bool
     random_state: Any
@@ -40,6 +41,10 @@ class _Quantizer(Estimator):
 
     labels_: npt.NDArray[np.int64]
     """The number of the nearest unit of each row that `fit` was given, as `predict` says."""
+
+    def _keep(self, given: dict[str, Any]) -> None:
+        """Set the parameters of `__init__` as they are, by their names: scikit-learn asks for that."""
+        vars(self).update((name, given[name]) for name in self._get_param_names())
 
     def fit(self, X: npt.ArrayLike, y: Any = None, **refused: NoReturn) -> Self:
         """Forget what was learnt, and learn from X.
@@ -284,7 +289,7 @@ class _Quantizer(Estimator):
         state = dict(super().__getstate__())
         learner = state.pop("_learner", None)
         if learner is not None:
-            state["_saved"] = (learner.single, learner.saved())
+            state["_saved"] = (learner.kind, learner.single, learner.saved())
         return state
 
     def __setstate__(self, state: dict[str, Any]) -> None:
@@ -292,7 +297,7 @@ class _Quantizer(Estimator):
         saved = state.pop("_saved", None)
         super().__setstate__(state)
         if saved is not None:
-            self._learner = Learner.resumed(self._kind, *saved)
+            self._learner = Learner.resumed(*saved)
 
 
 class _Grower(_Quantizer):
@@ -301,6 +306,12 @@ class _Grower(_Quantizer):
     _kind = "gng"
     max_units: int | None
     growth_period: int
+    winner_rate: float
+    neighbour_rate: float
+    split_factor: float
+    decay: float
+    error: str
+    order: str
     batch_size: int | None
 
     def _inputs_wanted(self) -> int:
@@ -338,6 +349,13 @@ class GNG(_Grower):
         k of GNG-U: the unit of least utility goes if the largest error is above k times that utility.
     removal : {"every_input", "when_full"}
         When units of little utility go.
+    replay : int or None
+        For streams that stay in one place for long: how many remembered inputs are learnt for each new one, drawn at
+        random; 8 served all streams that were tried. None learns each input once, as it comes.
+    replay_capacity : int
+        How many inputs are remembered, at least 1.
+    replay_memory : {"reservoir", "recent"}
+        Which: any of the past with the same chance, for worlds that stay, or the last ones, for worlds that change.
     n_epochs : int or "auto"
         How often `fit` goes through X. "auto" goes on until there were inputs enough to grow `max_units`, and as many
         again to settle: 2 · max_units · growth_period.
@@ -365,6 +383,12 @@ class GNG(_Grower):
     The defaults are those of Fritzke 1995.
     """
 
+    utility_threshold: float | None
+    removal: str
+    replay: int | None
+    replay_capacity: int
+    replay_memory: str
+
     def __init__(
         self,
         max_units: int | None = None,
@@ -379,6 +403,9 @@ class GNG(_Grower):
         order: str = "fritzke",
         utility_threshold: float | None = None,
         removal: str = "every_input",
+        replay: int | None = None,
+        replay_capacity: int = 10_000,
+        replay_memory: str = "reservoir",
         n_epochs: int | str = "auto",
         shuffle: bool = False,
         random_state: Any = None,
@@ -386,23 +413,7 @@ class GNG(_Grower):
         compute_labels: bool = True,
         progress: Progress = False,
     ) -> None:
-        self.max_units = max_units
-        self.growth_period = growth_period
-        self.winner_rate = winner_rate
-        self.neighbour_rate = neighbour_rate
-        self.max_age = max_age
-        self.split_factor = split_factor
-        self.decay = decay
-        self.error = error
-        self.order = order
-        self.utility_threshold = utility_threshold
-        self.removal = removal
-        self.n_epochs = n_epochs
-        self.shuffle = shuffle
-        self.random_state = random_state
-        self.batch_size = batch_size
-        self.compute_labels = compute_labels
-        self.progress = progress
+        self._keep(locals())
 
     def _warn(self, learner: Learner, learnt: int) -> None:
         found, asked = len(learner), self.max_units
@@ -432,6 +443,9 @@ class EquilibriumGNG(_Grower):
     reached.
     """
 
+    threshold: float
+    gate: str
+
     def __init__(
         self,
         threshold: float = 1.0,
@@ -453,23 +467,7 @@ class EquilibriumGNG(_Grower):
         compute_labels: bool = True,
         progress: Progress = False,
     ) -> None:
-        self.threshold = threshold
-        self.gate = gate
-        self.max_units = max_units
-        self.growth_period = growth_period
-        self.winner_rate = winner_rate
-        self.neighbour_rate = neighbour_rate
-        self.max_age = max_age
-        self.split_factor = split_factor
-        self.decay = decay
-        self.error = error
-        self.order = order
-        self.n_epochs = n_epochs
-        self.shuffle = shuffle
-        self.random_state = random_state
-        self.batch_size = batch_size
-        self.compute_labels = compute_labels
-        self.progress = progress
+        self._keep(locals())
 
 
 class SOINN(_Quantizer):
@@ -495,6 +493,11 @@ class SOINN(_Quantizer):
     """
 
     _kind = "soinn"
+    period: int
+    insertion: str
+    denoising: str
+    noise_factor: float
+    threshold: float | None
 
     def __init__(
         self,
@@ -511,14 +514,4 @@ class SOINN(_Quantizer):
         compute_labels: bool = True,
         progress: Progress = False,
     ) -> None:
-        self.max_age = max_age
-        self.period = period
-        self.insertion = insertion
-        self.denoising = denoising
-        self.noise_factor = noise_factor
-        self.threshold = threshold
-        self.n_epochs = n_epochs
-        self.shuffle = shuffle
-        self.random_state = random_state
-        self.compute_labels = compute_labels
-        self.progress = progress
+        self._keep(locals())

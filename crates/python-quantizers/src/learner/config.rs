@@ -1,7 +1,7 @@
 use pyo3::prelude::*;
 use tolman_quantizers::{
     Denoising, ErrorInsertion, ErrorKind, GngConfig, GrowthGate, QuantizerConfigError, Removal,
-    SimilarityThreshold, SoinnConfig, StepOrder, Utility,
+    ReplayConfig, ReplayMemory, SimilarityThreshold, SoinnConfig, StepOrder, Utility,
 };
 
 use crate::errors::{refused, wrong};
@@ -11,7 +11,7 @@ use crate::params::Params;
 type Gate = fn(f64) -> GrowthGate;
 
 /// Returns the configuration of a growing neural gas from Python's parameters.
-pub(super) fn gng_config(params: &Params<'_, '_>) -> PyResult<GngConfig> {
+pub(crate) fn gng_config(params: &Params<'_, '_>) -> PyResult<GngConfig> {
     let gate = match params.is_given("gate")? {
         false => GrowthGate::Open,
         true => {
@@ -64,8 +64,26 @@ pub(super) fn gng_config(params: &Params<'_, '_>) -> PyResult<GngConfig> {
     Ok(config)
 }
 
+/// Returns the memory of past inputs that Python's parameters ask for, or `None`.
+pub(super) fn replay_config(params: &Params<'_, '_>) -> PyResult<Option<ReplayConfig>> {
+    let Some(per_input) = params.optional_count("replay")? else {
+        return Ok(None);
+    };
+    let mut config = ReplayConfig::measured(0);
+    config.per_input = per_input;
+    config.capacity = params.count("replay_capacity")?;
+    config.memory = params.choice(
+        "replay_memory",
+        &[
+            ("reservoir", ReplayMemory::Reservoir),
+            ("recent", ReplayMemory::Recent),
+        ],
+    )?;
+    Ok(Some(config))
+}
+
 /// Returns the configuration of a SOINN from Python's parameters.
-pub(super) fn soinn_config(params: &Params<'_, '_>) -> PyResult<SoinnConfig> {
+pub(crate) fn soinn_config(params: &Params<'_, '_>) -> PyResult<SoinnConfig> {
     let c = params.number("noise_factor")?;
     let threshold = match params.optional("threshold")? {
         None => SimilarityThreshold::Adaptive,
@@ -95,7 +113,7 @@ pub(super) fn soinn_config(params: &Params<'_, '_>) -> PyResult<SoinnConfig> {
 }
 
 /// Returns a `ValueError` that names the parameter instead of the field.
-pub(super) fn named(error: QuantizerConfigError) -> PyErr {
+pub(crate) fn named(error: QuantizerConfigError) -> PyErr {
     match error {
         QuantizerConfigError::OutOfRange {
             field,
@@ -106,6 +124,8 @@ pub(super) fn named(error: QuantizerConfigError) -> PyErr {
                 "gate.threshold" => "threshold",
                 "utility.threshold" => "utility_threshold",
                 "denoising.c" => "noise_factor",
+                "per_input" => "replay",
+                "capacity" => "replay_capacity",
                 field => field,
             };
             wrong(format!("{parameter} is {value} but has to be {range}"))

@@ -17,8 +17,8 @@ use super::graph::number;
 use crate::errors::wrong;
 use crate::rows::{checked, flat, in_row, row_of};
 
-/// Number of rows that a thread takes at once.
-const ROWS: usize = 256;
+/// Number of rows that a thread takes at once: many, as all units are turned for them.
+const ROWS: usize = 1024;
 
 /// Number of features compared that is worth a thread.
 const WORTH_A_THREAD: usize = 2_000_000;

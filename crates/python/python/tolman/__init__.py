@@ -8,20 +8,23 @@
 >>> learned = tolman.learn(maze, "mslst-better", seed=1)
 """
 
-from tolman_quantizers import GNG, SOINN, EquilibriumGNG, NotFittedError
+from tolman_quantizers import GNG, SOINN, AssociativeMemory, EquilibriumGNG, NotFittedError
 
 from ._planners import Path, shortest_path
-from ._tolman import BumpMap, Map, Maze, Robot, learn, map_log, systems
+from ._tolman import BumpMap, Drive, Map, Maze, Replay, Robot, learn, map_log, systems
 
 __all__ = [
     "GNG",
     "SOINN",
+    "AssociativeMemory",
     "BumpMap",
+    "Drive",
     "EquilibriumGNG",
     "Map",
     "Maze",
     "NotFittedError",
     "Path",
+    "Replay",
     "Robot",
     "learn",
     "map_log",

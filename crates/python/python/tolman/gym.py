@@ -17,6 +17,9 @@ from ._tolman import Maze, Robot
 
 _Observation = dict[str, Any]
 
+# Pixels of a picture: from one cell to the next, and of a wall.
+_CELL, _WALL = 24, 3
+
 
 class MazeEnv(gymnasium.Env[_Observation, Any]):
     """The laser Pioneer has to find the goal of a maze.
@@ -32,11 +35,19 @@ class MazeEnv(gymnasium.Env[_Observation, Any]):
     environment can be copied and pickled in the midst of an episode, and goes on alike.
     """
 
-    metadata: dict[str, Any] = {"render_modes": []}
+    metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 10}
 
     def __init__(
-        self, maze: Maze | str | None = None, *, start: str = "random", noise: bool = True, max_steps: int | None = None
+        self,
+        maze: Maze | str | None = None,
+        *,
+        start: str = "random",
+        noise: bool = True,
+        max_steps: int | None = None,
+        render_mode: str | None = None,
     ) -> None:
+        if render_mode not in (None, "rgb_array"):
+            raise ValueError(f"render_mode is {render_mode!r} but has to be None or 'rgb_array'")
         if max_steps is not None and max_steps < 1:
             raise ValueError(f"max_steps is {max_steps} but has to be at least 1")
         self.family = maze if isinstance(maze, str) else None
@@ -44,6 +55,7 @@ class MazeEnv(gymnasium.Env[_Observation, Any]):
         self.start = start
         self.noise = noise
         self._steps_asked = max_steps
+        self.render_mode = render_mode
         self._begin(seed=0)
         self.action_space = spaces.Box(-1.0, 1.0, (2,), np.float32)
         self.observation_space = spaces.Dict(
@@ -81,6 +93,31 @@ class MazeEnv(gymnasium.Env[_Observation, Any]):
         arrived = self._robot.at_goal
         late = self._robot.steps >= self.max_steps
         return self._observed(), -1.0, arrived, late and not arrived, self._known()
+
+    def render(self) -> Any:
+        """Return a picture from above, if `render_mode` is "rgb_array": an array of shape (rows, columns, 3) of uint8.
+
+        A cell has 24 pixels. Walls are black, goals are green, the robot is red, and a white dot is its front.
+        """
+        if self.render_mode != "rgb_array":
+            return None
+        walls = self.maze.to_array()
+        sizes = [[_WALL if at % 2 == 0 else _CELL - _WALL for at in range(count)] for count in walls.shape]
+        stands = walls.repeat(sizes[0], axis=0).repeat(sizes[1], axis=1)
+        picture = np.full((*stands.shape, 3), 255, np.uint8)
+        high = self.maze.height * _CELL + _WALL
+        for east, north in self.maze.goals:
+            top = high - (north + 1) * _CELL - _WALL
+            picture[top : top + _CELL, east * _CELL : (east + 1) * _CELL + _WALL] = (190, 235, 190)
+        picture[stands == 1] = 0
+        x, y, heading = self._robot.pose
+        scale, middle = _CELL / self._robot.pitch, _WALL / 2
+        rows, columns = np.ogrid[: stands.shape[0], : stands.shape[1]]
+        for ahead, radius, colour in ((0.0, 5.0, (210, 40, 40)), (3.0, 1.5, (255, 255, 255))):
+            column = x * scale + middle + ahead * math.cos(heading)
+            row = high - y * scale - middle - ahead * math.sin(heading)
+            picture[(rows - row) ** 2 + (columns - column) ** 2 <= radius**2] = colour
+        return picture
 
     def _observed(self) -> _Observation:
         robot = self._robot

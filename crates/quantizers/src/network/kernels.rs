@@ -73,6 +73,52 @@ impl Kernels {
         }
         kernel()
     }
+
+    /// Runs `kernel` in the same way, and tells it the registers, which are constants in each of
+    /// its versions.
+    #[inline(always)]
+    pub(crate) fn run_in<R>(self, kernel: impl FnOnce(Registers) -> R) -> R {
+        #[cfg(feature = "std")]
+        if let Some(arch) = self.arch {
+            return arch.dispatch(InRegisters(kernel));
+        }
+        kernel(Registers::default())
+    }
+}
+
+/// The registers that hold lanes.
+#[derive(Clone, Copy)]
+pub(crate) struct Registers {
+    pub(crate) count: usize,
+    /// Number of bytes in each.
+    pub(crate) size: usize,
+}
+
+impl Default for Registers {
+    /// Returns those that every processor has.
+    fn default() -> Self {
+        Self {
+            count: 16,
+            size: 16,
+        }
+    }
+}
+
+/// A kernel that is told its registers.
+#[cfg(feature = "std")]
+struct InRegisters<K>(K);
+
+#[cfg(feature = "std")]
+impl<R, K: FnOnce(Registers) -> R> pulp::WithSimd for InRegisters<K> {
+    type Output = R;
+
+    #[inline(always)]
+    fn with_simd<A: pulp::Simd>(self, _: A) -> R {
+        self.0(Registers {
+            count: A::REGISTER_COUNT,
+            size: A::F64_LANES * size_of::<f64>(),
+        })
+    }
 }
 
 #[cfg(test)]

@@ -52,7 +52,7 @@ impl<S: Scalar> Best<S> {
 
     /// Offers a block of slots behind all that were offered before, which therefore lose ties.
     #[inline(always)]
-    pub(super) fn offer_later(&mut self, sums: &[S; LANES], start: usize) {
+    pub(super) fn offer_later<const N: usize>(&mut self, sums: &[S; N], start: usize) {
         let bound = self.second.squared_distance;
         let mut some = false;
         for sum in sums {
