@@ -17,7 +17,7 @@ import robot as turtle
 
 HEADINGS = {"east": 0.0, "north": math.pi / 2, "west": math.pi, "south": -math.pi / 2}
 MOTIONS = 60_000  # most in one task
-FAR = 10  # most, in lengths of all corridors or of the shortest way
+FAR = 10  # most, in lengths of all corridors; on the way home in shortest ways, and all corridors once
 
 
 class Maze:
@@ -158,7 +158,7 @@ x = {turtle.LASER_X}
                 far = [cell for cell in steps if cell not in self.maze.goals]
                 start = self.random.choice(far)
                 self.put(start)
-                home = self.pursue("reach-goal", FAR * steps[start] * self.pitch, put_down=True)
+                home = self.pursue("reach-goal", (FAR * steps[start] + len(steps)) * self.pitch, put_down=True)
                 self.brain.stdin.close()
         is_home = bool(home) and home["standing"] == "done" and self.cell() in self.maze.goals
         verdict = learned["verdict"]

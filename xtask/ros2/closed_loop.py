@@ -225,7 +225,7 @@ class Play:
         self.place(start)
         self.trigger("put_down")
         self.trigger("reach_goal")
-        home = self.wait(FAR * self.steps[start] * self.pitch)
+        home = self.wait((FAR * self.steps[start] + len(self.steps)) * self.pitch)
         is_home = bool(home) and home["standing"] == "done" and self.cell() in self.maze.goals
         navigated = self.navigate(self.random.choice([cell for cell in self.steps if self.steps[cell] > 1])) if is_home else None
         is_done = bool(ended) and ended["standing"] == "done"
