@@ -19,8 +19,8 @@ const PROGRAM: &str = "thumbv7em-none-eabihf/release/tolman-board";
 const LIMITS: Needs = Needs {
     memory: 26 << 10,
     flash: 56 << 10,
-    located: 1_300_000,
-    lost: 13_000_000,
+    located: 1_200_000,
+    lost: 1_200_000,
 };
 
 /// What the mouse needs.
