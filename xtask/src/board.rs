@@ -48,7 +48,8 @@ pub(crate) fn check() -> Result<Outcome> {
 
 fn run() -> Result<Outcome> {
     succeed(here("fmt")?.args(["--", "--check"]))?;
-    succeed(here("clippy --locked --quiet --release")?.args(["--", "--deny", "warnings"]))?;
+    let mut lints = here("clippy --locked --quiet --release --bins --examples")?;
+    succeed(lints.args(["--", "--deny", "warnings"]))?;
     let needs = measured()?;
     eprintln!(
         "the mouse runs in {} bytes of memory and {} of flash; its longest decision takes {} \
