@@ -1,5 +1,5 @@
-//! `cargo xtask c`: compares the header of the mouse for C with its code, lets programs in C explore
-//! mazes, and a mouse in C++ play mms. The package is no member of the workspace.
+//! `cargo xtask c`: compares the header of the mouse for C with its code, lets programs in C
+//! explore mazes, and a mouse in C++ play mms. The package is no member of the workspace.
 
 use std::fs;
 use std::path::Path;
@@ -79,7 +79,7 @@ fn examples() -> Result<Outcome> {
     let text = |path: &Path| {
         path.to_str()
             .map(str::to_owned)
-            .context("a path is no text")
+            .context("the path is not UTF-8")
     };
     let (library, mouse) = (text(&library)?, text(&mouse)?);
     let system = ["-lpthread", "-ldl", "-lm", "-o", &mouse];

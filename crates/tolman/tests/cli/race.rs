@@ -296,7 +296,7 @@ fn corridor(cells: usize) -> String {
 mod replayed {
     use serde_json::Value;
 
-    /// Half steps to the east and north of headings, by eighths of a turn counter-clockwise from east.
+    /// Half steps to the east and north, by eighths of a turn counter-clockwise from east.
     const STEP: [(i64, i64); 8] = [
         (1, 0),
         (1, 1),
