@@ -145,7 +145,7 @@ fn expected<const N: usize>(mazes: &[Maze], config: &SpeedRunConfig) -> String {
 enum Size {
     Classic,
     Small,
-    HalfSize,
+    Half,
 }
 
 impl Size {
@@ -154,7 +154,7 @@ impl Size {
         match self {
             Self::Classic => "",
             Self::Small => "small",
-            Self::HalfSize => "side-32",
+            Self::Half => "side-32",
         }
     }
 
@@ -163,19 +163,19 @@ impl Size {
         match self {
             Self::Classic => "-DTOLMAN",
             Self::Small => "-DTOLMAN_SMALL",
-            Self::HalfSize => "-DTOLMAN_SIDE_32",
+            Self::Half => "-DTOLMAN_SIDE_32",
         }
     }
 
     fn mazes(self) -> Vec<Maze> {
-        let mazes = mazes(if self == Self::HalfSize { 32 } else { 16 });
-        assert_eq!(mazes.len(), if self == Self::HalfSize { 2 } else { 9 });
+        let mazes = mazes(if self == Self::Half { 32 } else { 16 });
+        assert_eq!(mazes.len(), if self == Self::Half { 2 } else { 9 });
         mazes
     }
 
     fn expected(self) -> String {
         match self {
-            Self::HalfSize => expected::<32>(&self.mazes(), &SpeedRunConfig::half_size()),
+            Self::Half => expected::<32>(&self.mazes(), &SpeedRunConfig::half_size()),
             _ => expected::<16>(&self.mazes(), &SpeedRunConfig::classic()),
         }
     }
@@ -263,7 +263,7 @@ fn c_decides_as_rust_does() {
     if !is_there("cc") {
         return;
     }
-    for size in [Size::Classic, Size::HalfSize] {
+    for size in [Size::Classic, Size::Half] {
         let options = ["main.c", "-lm", "-lpthread", "-ldl"];
         let program = program(size, "cc", "host", &options, None);
         assert_eq!(printed(&mut Command::new(program)).0, size.expected());
@@ -347,7 +347,7 @@ fn a_chip_decides_as_rust_does_with_little_memory() {
 
 #[test]
 fn a_chip_decides_as_rust_does_in_half_size_mazes() {
-    a_chip_decides_as_rust_does(Size::HalfSize, 48 << 10, 6_000_000);
+    a_chip_decides_as_rust_does(Size::Half, 48 << 10, 6_000_000);
 }
 
 /// Code and constants of all functions, without those of C.

@@ -432,7 +432,8 @@ fn speeds_over_time_are_drawn_for_each_mouse() {
     tolman_in(&folder, &call).done();
     let svg = std::fs::read_to_string(folder.join("s.svg")).unwrap();
     assert!(svg.starts_with("<svg ") && svg.contains("a.toml") && svg.contains("b.toml"));
-    assert_eq!(svg.matches("class=\"line\"").count(), 2, "{svg}");
+    // Two, each with its sample in the legend.
+    assert_eq!(svg.matches("class=\"line\"").count(), 4, "{svg}");
     std::fs::create_dir(folder.join("two")).unwrap();
     for name in ["two/a.maze", "two/b.maze"] {
         std::fs::write(folder.join(name), MAZE).unwrap();
