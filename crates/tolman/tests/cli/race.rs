@@ -393,7 +393,7 @@ fn six_thousand_moves_are_replayed_without_a_doubt() {
     let folder = folder("race-replayed");
     std::fs::create_dir(folder.join("mazes")).unwrap();
     let mut drawings = std::collections::BTreeMap::new();
-    for seed in 0..240_u32 {
+    for seed in 0..150_u32 {
         let (family, size) = [
             ("braided", "16x16"),
             ("rooms", "16x16"),
