@@ -1,6 +1,10 @@
+use core::borrow::BorrowMut;
+
 use tolman_maps::wall_map::{CellRay, ClosedCells, ObserveError, TooLarge, WallMap};
 use tolman_maze::{Cell, Direction, Grid, Knowledge, Walls};
-use tolman_planners::speed_run::{CellTimes, Decision, RunStep, SpeedRunExplorer, SpeedRunTimes};
+use tolman_planners::speed_run::{
+    CellTimes, Decision, RunStep, SpeedRunExplorer, SpeedRunMap, SpeedRunTimes,
+};
 use tolman_planners::{Passages, PoseKnowledge, PoseSet, Unknown};
 
 /// Number of columns and of rows of a classic maze.
@@ -36,11 +40,11 @@ const START: (Cell, Direction) = (Cell::new(0, 0), Direction::North);
 /// # Ok::<(), tolman_maps::wall_map::TooLarge>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Mouse<'a, const N: usize = MAZE, C: CellTimes = [u16; 12]> {
+pub struct Mouse<'a, const N: usize = MAZE, C: CellTimes = [u16; 12], M = SpeedRunMap<N, C>> {
     walls: WallMap<N, LOG>,
     /// Whether walls may be wrong: this is the first map, or the mouse was lost since it began it.
     is_doubtful: bool,
-    explorer: SpeedRunExplorer<'a, N, C>,
+    explorer: SpeedRunExplorer<'a, N, C, M>,
     place: Place<N>,
 }
 
@@ -91,11 +95,11 @@ impl<'a> Mouse<'a> {
     /// Returns a mouse at the start of a classic maze that it has never seen.
     #[must_use]
     pub const fn new(times: &'a SpeedRunTimes<MAZE>, goals: &'a [Cell]) -> Self {
-        Self::with_memory(times, goals)
+        Self::with_map(times, goals, SpeedRunMap::new())
     }
 }
 
-impl<'a, const N: usize, C: CellTimes> Mouse<'a, N, C> {
+impl<'a, const N: usize, C: CellTimes, M: BorrowMut<SpeedRunMap<N, C>>> Mouse<'a, N, C, M> {
     /// The map of a maze that the mouse has never seen.
     const UNSEEN: WallMap<N, LOG> =
         match WallMap::new(Grid::new(N as u16, N as u16), ClosedCells::Possible) {
@@ -103,14 +107,14 @@ impl<'a, const N: usize, C: CellTimes> Mouse<'a, N, C> {
             Err(_) => panic!("the map is as large as the maze"),
         };
 
-    /// Returns a mouse at the start of a maze of `N` × `N` cells that it has never seen, which
-    /// keeps the times of runs in [`CellTimes`] of its own.
+    /// Returns a mouse at the start of a maze of `N` × `N` cells that it has never seen. The map
+    /// of its runs is its own or lent, [new](SpeedRunMap::new) or [cleared](SpeedRunMap::clear).
     #[must_use]
-    pub const fn with_memory(times: &'a SpeedRunTimes<N>, goals: &'a [Cell]) -> Self {
+    pub const fn with_map(times: &'a SpeedRunTimes<N>, goals: &'a [Cell], map: M) -> Self {
         Self {
             walls: Self::UNSEEN,
             is_doubtful: true,
-            explorer: SpeedRunExplorer::new(times, START.0, START.1, goals),
+            explorer: SpeedRunExplorer::with_map(times, START.0, START.1, goals, map),
             place: Place::Known {
                 cell: START.0,
                 heading: START.1,

@@ -19,9 +19,14 @@
 #define TOLMAN_SIDE 32
 #endif
 
-#if !defined(TOLMAN_SIDE_32)
+#if !(defined(TOLMAN_SIDE_32) || defined(TOLMAN_SMALL))
 // Size of a mouse, in 8 bytes.
 #define TOLMAN_MOUSE_WORDS 1600
+#endif
+
+#if (defined(TOLMAN_SMALL) && !defined(TOLMAN_SIDE_32))
+// Size of a mouse, in 8 bytes.
+#define TOLMAN_MOUSE_WORDS 1344
 #endif
 
 #if defined(TOLMAN_SIDE_32)

@@ -15,7 +15,7 @@ use core::{ptr, slice};
 use tolman_firmware::{Command, Mouse, Sides};
 use tolman_maze::{Cell, Direction};
 use tolman_planners::speed_run::{
-    RunMove, Side, Slalom, SlalomTurn, SlalomTurns, SpeedRunConfig, SpeedRunTimes,
+    RunMove, Side, Slalom, SlalomTurn, SlalomTurns, SpeedRunConfig, SpeedRunMap, SpeedRunTimes,
 };
 
 /// Number of columns and rows of the maze.
@@ -26,8 +26,11 @@ pub const TOLMAN_SIDE: usize = 16;
 pub const TOLMAN_SIDE: usize = 32;
 
 /// Size of a mouse, in 8 bytes.
-#[cfg(not(feature = "side-32"))]
+#[cfg(not(any(feature = "side-32", feature = "small")))]
 pub const TOLMAN_MOUSE_WORDS: usize = 1600;
+/// Size of a mouse, in 8 bytes.
+#[cfg(all(feature = "small", not(feature = "side-32")))]
+pub const TOLMAN_MOUSE_WORDS: usize = 1344;
 /// Size of a mouse, in 8 bytes.
 #[cfg(feature = "side-32")]
 pub const TOLMAN_MOUSE_WORDS: usize = 5000;
@@ -38,9 +41,10 @@ pub const TOLMAN_GOALS: usize = 9;
 /// Maximum size of a saved map, bytes.
 pub const TOLMAN_SAVED_BYTES: usize = 1024;
 
-#[cfg(not(feature = "side-32"))]
+/// With four states of each cell for turns within it, if there is memory for them.
+#[cfg(not(any(feature = "side-32", feature = "small")))]
 type Times = [u16; 16];
-#[cfg(feature = "side-32")]
+#[cfg(any(feature = "side-32", feature = "small"))]
 type Times = [u16; 12];
 
 /// Memory of a mouse. Do not move or copy it: begin with `tolman_new` wherever it lies.
@@ -167,12 +171,18 @@ pub struct tolman_move {
     pub time_ms: u16,
 }
 
+type Map = SpeedRunMap<TOLMAN_SIDE, Times>;
+
+/// The mouse, with the map of its runs beside it: so large a map is never passed over the stack.
+type Begun = Mouse<'static, TOLMAN_SIDE, Times, &'static mut Map>;
+
 struct Inner {
     /// Where the mouse was begun. Elsewhere its references lead astray.
     at: *const tolman_mouse,
     times: SpeedRunTimes<TOLMAN_SIDE>,
     goals: [Cell; TOLMAN_GOALS],
-    mouse: MaybeUninit<Mouse<'static, TOLMAN_SIDE, Times>>,
+    map: Map,
+    mouse: Begun,
 }
 
 const _: () = assert!(size_of::<Inner>() <= size_of::<tolman_mouse>());
@@ -211,16 +221,18 @@ pub unsafe extern "C" fn tolman_new(
     };
     let inner = mouse.cast::<Inner>();
     // SAFETY: the memory is large enough and aligned, and belongs to the caller, who does not touch
-    // it meanwhile. Times and goals are written before the mouse that refers to them, and stay
-    // where they are as long as `at` says so.
+    // it meanwhile. Times, goals and map are written before the mouse that refers to them, and stay
+    // where they are as long as `at` says so. The map consists of integers, which zeros are.
     unsafe {
         ptr::addr_of_mut!((*inner).times).write(times);
         ptr::addr_of_mut!((*inner).goals).write(goals);
         let times: &'static SpeedRunTimes<TOLMAN_SIDE> = &*ptr::addr_of!((*inner).times);
         let goals = slice::from_raw_parts(ptr::addr_of!((*inner).goals).cast::<Cell>(), goal_count);
-        ptr::addr_of_mut!((*inner).mouse)
-            .cast::<Mouse<'static, TOLMAN_SIDE, Times>>()
-            .write(Mouse::with_memory(times, goals));
+        let map = ptr::addr_of_mut!((*inner).map);
+        map.write_bytes(0, 1);
+        let map = &mut *map;
+        map.clear();
+        ptr::addr_of_mut!((*inner).mouse).write(Begun::with_map(times, goals, map));
         ptr::addr_of_mut!((*inner).at).write(mouse);
     }
     tolman_status::TOLMAN_OK
@@ -268,7 +280,7 @@ pub unsafe extern "C" fn tolman_arrive(
 #[no_mangle]
 pub unsafe extern "C" fn tolman_crashed(mouse: *mut tolman_mouse) -> tolman_status {
     // SAFETY: as the caller promises.
-    match unsafe { begun(mouse) }.map(Mouse::crash) {
+    match unsafe { begun(mouse) }.map(Begun::crash) {
         Some(Ok(())) => tolman_status::TOLMAN_OK,
         _ => tolman_status::TOLMAN_BAD_POINTER,
     }
@@ -281,7 +293,7 @@ pub unsafe extern "C" fn tolman_crashed(mouse: *mut tolman_mouse) -> tolman_stat
 #[no_mangle]
 pub unsafe extern "C" fn tolman_carried_back(mouse: *mut tolman_mouse) -> tolman_status {
     // SAFETY: as the caller promises.
-    match unsafe { begun(mouse) }.map(Mouse::carried_back) {
+    match unsafe { begun(mouse) }.map(Begun::carried_back) {
         Some(()) => tolman_status::TOLMAN_OK,
         None => tolman_status::TOLMAN_BAD_POINTER,
     }
@@ -378,9 +390,7 @@ pub unsafe extern "C" fn tolman_load(
 ///
 /// # Safety
 /// `mouse` must be null or point to memory for a mouse, which nothing else uses meanwhile.
-unsafe fn begun<'a>(
-    mouse: *mut tolman_mouse,
-) -> Option<&'a mut Mouse<'static, TOLMAN_SIDE, Times>> {
+unsafe fn begun<'a>(mouse: *mut tolman_mouse) -> Option<&'a mut Begun> {
     if mouse.is_null() {
         return None;
     }
@@ -388,7 +398,7 @@ unsafe fn begun<'a>(
     // SAFETY: `at` is read as any bits, and equals this address only after `tolman_new`.
     unsafe {
         let at = ptr::addr_of!((*inner).at).read();
-        (at == mouse.cast_const()).then(|| &mut *ptr::addr_of_mut!((*inner).mouse).cast())
+        (at == mouse.cast_const()).then(|| &mut *ptr::addr_of_mut!((*inner).mouse))
     }
 }
 

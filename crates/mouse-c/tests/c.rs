@@ -11,11 +11,13 @@ use std::process::Command;
 use std::{env, fs};
 
 use tolman_firmware::{Command as Next, Mouse, Sides};
-use tolman_maze::{Cell, Direction, Maze};
-use tolman_planners::speed_run::{RunMove, Side, Slalom, SpeedRunConfig, SpeedRunTimes};
+use tolman_maze::{Cell, Direction, Maze, Walls};
+use tolman_planners::speed_run::{
+    RunMove, Side, Slalom, SpeedRunConfig, SpeedRunMap, SpeedRunTimes,
+};
 
-/// Returns the classic mazes of the project.
-fn mazes() -> Vec<Maze> {
+/// Returns the project's mazes of this size.
+fn mazes(side: u16) -> Vec<Maze> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../mazes/grid");
     let mut files: Vec<PathBuf> = fs::read_dir(folder)
         .unwrap()
@@ -27,13 +29,19 @@ fn mazes() -> Vec<Maze> {
         tolman_maze::read(&text).unwrap().maze
     });
     mazes
-        .filter(|maze| (maze.grid().width(), maze.grid().height()) == (16, 16))
+        .filter(|maze| (maze.grid().width(), maze.grid().height()) == (side, side))
         .collect()
 }
 
-/// Returns the mazes as a header: bits of the open sides of each cell.
+/// Returns the mazes as a header: the goals, and bits of the open sides of each cell.
 fn header(mazes: &[Maze]) -> String {
-    let mut text = format!("static const uint8_t MAZES[{}][256] = {{\n", mazes.len());
+    let grid = mazes[0].grid();
+    let mut text = "#define GOALS ".to_owned();
+    for goal in grid.middle() {
+        write!(text, "{{{}, {}}},", goal.x, goal.y).unwrap();
+    }
+    let (count, cells) = (mazes.len(), grid.cells().count());
+    writeln!(text, "\nstatic const uint8_t MAZES[{count}][{cells}] = {{").unwrap();
     for maze in mazes {
         text.push('{');
         for cell in maze.grid().cells() {
@@ -48,32 +56,58 @@ fn header(mazes: &[Maze]) -> String {
     text + "};\n"
 }
 
-/// Explores a maze as `main.c` does, and returns what it prints. The reset chip begins at the start
-/// with what it knew.
-fn explored(maze: &Maze, reset_after: Option<usize>) -> String {
-    let times = SpeedRunTimes::<16>::new(&SpeedRunConfig::classic()).unwrap();
+/// What happens after 60 cells.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Event {
+    Nothing,
+    /// The chip is reset, and the mouse begins at the start with what it knew.
+    Reset,
+    /// The mouse is put down elsewhere.
+    Carried,
+}
+
+/// Explores a maze as `main.c` does, and returns what it prints.
+fn explored<const N: usize>(maze: &Maze, config: &SpeedRunConfig, event: Event) -> String {
+    const START: (Cell, Direction) = (Cell::new(0, 0), Direction::North);
+    let times = SpeedRunTimes::<N>::new(config).unwrap();
     let goals: Vec<Cell> = maze.grid().middle().collect();
-    let mut mouse = Mouse::new(&times, &goals);
-    let (mut at, mut heading) = (Cell::new(0, 0), Direction::North);
+    let begun = || Mouse::<N>::with_map(&times, &goals, SpeedRunMap::new());
+    let mut mouse = begun();
+    let (mut at, mut heading) = START;
     let mut text = String::new();
     for cells in 0.. {
         let seen = Sides::read(|side| maze.is_open(at, heading.turned(side)));
         match mouse.arrive(seen).unwrap() {
             Next::Drive(side) => {
                 write!(text, "{}", side.index()).unwrap();
-                heading = heading.turned(side);
-                at = maze.beside(at, heading).unwrap();
+                match maze.beside(at, heading.turned(side)) {
+                    Some(next) => (at, heading) = (next, heading.turned(side)),
+                    None => mouse.crash().unwrap(),
+                }
             }
             Next::Ready { .. } => break,
-            other => panic!("{other:?} in\n{maze}"),
+            Next::CarryBack => {
+                text.push('5');
+                mouse.carried_back();
+                (at, heading) = START;
+            }
+            Next::GiveUp => panic!("no way to the goal in\n{maze}"),
         }
-        if reset_after == Some(cells) {
-            let before = mouse.clone();
-            mouse = Mouse::new(&times, &goals);
-            mouse
-                .restore(|cell, side| tolman_maze::Walls::knowledge(before.walls(), cell, side))
-                .unwrap();
-            (at, heading) = (Cell::new(0, 0), Direction::North);
+        match event {
+            Event::Reset if cells == 60 => {
+                let before = mouse.clone();
+                mouse = begun();
+                mouse
+                    .restore(|cell, side| before.walls().knowledge(cell, side))
+                    .unwrap();
+                (at, heading) = START;
+            }
+            Event::Carried if cells == 60 => {
+                at = Cell::new(3, 1);
+                let behind_is_open = |heading: &Direction| maze.is_open(at, heading.opposite());
+                heading = Direction::ALL.into_iter().find(behind_is_open).unwrap();
+            }
+            _ => {}
         }
     }
     text.push_str("4\n");
@@ -96,14 +130,60 @@ fn explored(maze: &Maze, reset_after: Option<usize>) -> String {
 }
 
 /// Returns what the program in C has to print.
-fn expected(mazes: &[Maze]) -> String {
-    let both = |maze| explored(maze, None) + &explored(maze, Some(60));
-    mazes.iter().map(both).collect()
+fn expected<const N: usize>(mazes: &[Maze], config: &SpeedRunConfig) -> String {
+    let events = [Event::Nothing, Event::Reset, Event::Carried];
+    let all = |maze| {
+        events
+            .map(|event| explored::<N>(maze, config, event))
+            .concat()
+    };
+    mazes.iter().map(all).collect()
+}
+
+/// The library for mazes of 16 × 16 cells, the smaller one, and that for 32 × 32.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Size {
+    Classic,
+    Small,
+    Half,
+}
+
+impl Size {
+    /// Returns the feature of the library.
+    const fn feature(self) -> &'static str {
+        match self {
+            Self::Classic => "",
+            Self::Small => "small",
+            Self::Half => "side-32",
+        }
+    }
+
+    /// Returns what the header has to know.
+    const fn define(self) -> &'static str {
+        match self {
+            Self::Classic => "-DTOLMAN",
+            Self::Small => "-DTOLMAN_SMALL",
+            Self::Half => "-DTOLMAN_SIDE_32",
+        }
+    }
+
+    fn mazes(self) -> Vec<Maze> {
+        let mazes = mazes(if self == Self::Half { 32 } else { 16 });
+        assert_eq!(mazes.len(), if self == Self::Half { 2 } else { 9 });
+        mazes
+    }
+
+    fn expected(self) -> String {
+        match self {
+            Self::Half => expected::<32>(&self.mazes(), &SpeedRunConfig::half_size()),
+            _ => expected::<16>(&self.mazes(), &SpeedRunConfig::classic()),
+        }
+    }
 }
 
 /// Builds the static library for a target, and returns it.
-fn library(target: Option<&str>) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("library");
+fn library(size: Size, target: Option<&str>) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("library-{}", size.feature()));
     let mut cargo = Command::new(env!("CARGO"));
     cargo.args([
         "build",
@@ -113,11 +193,14 @@ fn library(target: Option<&str>) -> PathBuf {
         "--offline",
         "--lib",
     ]);
-    cargo.arg("--target-dir").arg(&folder);
+    cargo
+        .args(["--features", size.feature(), "--target-dir"])
+        .arg(&folder);
     if let Some(target) = target {
         cargo.args(["--target", target]);
     }
     let built = cargo
+        .env("CARGO_INCREMENTAL", "0")
         .current_dir(env!("CARGO_MANIFEST_DIR"))
         .status()
         .unwrap();
@@ -127,33 +210,28 @@ fn library(target: Option<&str>) -> PathBuf {
         .join("release/libtolman_mouse.a")
 }
 
-/// Compiles `main.c` with a compiler and its options, and returns the program.
+/// Compiles files of this folder, and returns the program.
 fn program(
+    size: Size,
     compiler: &str,
     name: &str,
     options: &[&str],
-    library: &Path,
-    mazes: &[Maze],
+    target: Option<&str>,
 ) -> PathBuf {
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}-{}", size.feature()));
     fs::create_dir_all(&out).unwrap();
-    fs::write(out.join("mazes.h"), header(mazes)).unwrap();
+    fs::write(out.join("mazes.h"), header(&size.mazes())).unwrap();
     let program = out.join("main");
     let mut compile = Command::new(compiler);
-    compile
-        .args(["-O2", "-Wall", "-Wextra", "-Werror", "-I"])
-        .arg(&out);
-    compile
-        .arg("-I")
-        .arg(here.join("include"))
-        .arg(here.join("tests/main.c"));
+    compile.args(["-O2", "-Wall", "-Wextra", "-Werror", size.define(), "-I"]);
+    compile.arg(&out).arg("-I").arg(here.join("include"));
     // Libraries follow what needs them.
     let (libraries, options): (Vec<&str>, Vec<&str>) =
         options.iter().partition(|option| option.starts_with("-l"));
     compile
         .args(options)
-        .arg(library)
+        .arg(library(size, target))
         .args(libraries)
         .arg("-o")
         .arg(&program);
@@ -171,66 +249,130 @@ fn is_there(program: &str) -> bool {
     found
 }
 
-fn printed(command: &mut Command) -> String {
+/// Returns what a program prints to stdout and to stderr.
+fn printed(command: &mut Command) -> (String, String) {
     let output = command.output().unwrap();
-    let text = String::from_utf8(output.stdout).unwrap();
-    assert!(output.status.success(), "{text}");
-    text
+    let text = |bytes| String::from_utf8(bytes).unwrap().replace('\r', "");
+    let (out, err) = (text(output.stdout), text(output.stderr));
+    assert!(output.status.success(), "{out}{err}");
+    (out, err)
 }
 
 #[test]
 fn c_decides_as_rust_does() {
-    let mazes = mazes();
-    assert_eq!(mazes.len(), 9);
     if !is_there("cc") {
         return;
     }
-    let program = program(
-        "cc",
-        "host",
-        &["-lm", "-lpthread", "-ldl"],
-        &library(None),
-        &mazes,
-    );
-    assert_eq!(printed(&mut Command::new(program)), expected(&mazes));
+    for size in [Size::Classic, Size::Half] {
+        let options = ["main.c", "-lm", "-lpthread", "-ldl"];
+        let program = program(size, "cc", "host", &options, None);
+        assert_eq!(printed(&mut Command::new(program)).0, size.expected());
+    }
 }
 
-#[test]
-fn a_chip_decides_as_rust_does() {
-    let target = "thumbv7em-none-eabihf";
-    if !is_there("arm-none-eabi-gcc") || !is_there("qemu-system-arm") {
+/// A Cortex-M4F.
+const CHIP: &str = "thumbv7em-none-eabihf";
+
+const CORE: [&str; 5] = [
+    "-mcpu=cortex-m4",
+    "-mthumb",
+    "-mfpu=fpv4-sp-d16",
+    "-mfloat-abi=hard",
+    "-Wl,--gc-sections",
+];
+
+/// Returns the number behind a name in a line of JSON.
+fn number(line: &str, name: &str) -> u32 {
+    let (_, value) = line.split_once(&format!("\"{name}\":")).unwrap();
+    let end = value.find([',', '}']).unwrap();
+    value[..end].parse().unwrap()
+}
+
+/// Returns whether a program can be built for the chip, and says so if it cannot.
+fn has_chip() -> bool {
+    let mut rustc = Command::new("rustc");
+    let (folder, _) = printed(rustc.args(["--print", "target-libdir", "--target", CHIP]));
+    let found = Path::new(folder.trim()).exists();
+    if !found {
+        eprintln!("SKIPPED: `rustup target add {CHIP}`");
+    }
+    found && is_there("arm-none-eabi-gcc")
+}
+
+/// Lets `main.c` run on an emulated chip, and compares what the library needs there with what it
+/// may need: memory with the stack, bytes, and instructions of the longest decision.
+fn a_chip_decides_as_rust_does(size: Size, most_memory: u32, most_instructions: u32) {
+    if !has_chip() || !is_there("qemu-system-arm") {
         return;
     }
-    let mazes = mazes();
     let options = [
-        "-mcpu=cortex-m4",
-        "-mthumb",
-        "-mfpu=fpv4-sp-d16",
-        "-mfloat-abi=hard",
         "--specs=rdimon.specs",
         "-Wl,--section-start=.vectors=0x0",
         "-Wl,-Ttext-segment=0x1000",
         "-Wl,-Tdata=0x20000000",
-        "-Wl,--gc-sections",
         "-Wl,--undefined=VECTORS",
+        "-Wl,--no-warn-execstack",
+        "-DCHIP",
+        "main.c",
         "chip.c",
     ];
-    let program = program(
-        "arm-none-eabi-gcc",
-        "chip",
-        &options,
-        &library(Some(target)),
-        &mazes,
-    );
+    let options = [&CORE[..], &options].concat();
+    let program = program(size, "arm-none-eabi-gcc", "chip", &options, Some(CHIP));
     let mut qemu = Command::new("timeout");
     qemu.args([
-        "200",
+        "500",
         "qemu-system-arm",
         "-machine",
         "mps2-an386",
         "-nographic",
-        "-semihosting",
     ]);
-    qemu.arg("-kernel").arg(program);
-    assert_eq!(printed(&mut qemu).replace('\r', ""), expected(&mazes));
+    qemu.args(["-semihosting", "-icount", "shift=4", "-kernel"]);
+    let (out, needs) = printed(qemu.arg(program));
+    assert_eq!(out, size.expected());
+    let memory = number(&needs, "mouse") + number(&needs, "stack");
+    eprintln!("{}: {memory} bytes of memory, {needs}", size.define());
+    assert!(memory <= most_memory, "{needs}");
+    assert!(number(&needs, "arrive") <= most_instructions, "{needs}");
+}
+
+#[test]
+fn a_chip_decides_as_rust_does_in_classic_mazes() {
+    a_chip_decides_as_rust_does(Size::Classic, 26 << 10, 1_200_000);
+}
+
+#[test]
+fn a_chip_decides_as_rust_does_with_little_memory() {
+    a_chip_decides_as_rust_does(Size::Small, 16 << 10, 1_200_000);
+}
+
+#[test]
+fn a_chip_decides_as_rust_does_in_half_size_mazes() {
+    a_chip_decides_as_rust_does(Size::Half, 48 << 10, 6_000_000);
+}
+
+/// Code and constants of all functions, without those of C.
+#[test]
+fn the_library_fits_into_60_kb_of_flash() {
+    if !has_chip() {
+        return;
+    }
+    let options = [
+        "-nostdlib",
+        "-Wl,--entry=all",
+        "-Wl,--no-warn-execstack",
+        "flash.c",
+    ];
+    let options = [&CORE[..], &options].concat();
+    let program = program(
+        Size::Classic,
+        "arm-none-eabi-gcc",
+        "flash",
+        &options,
+        Some(CHIP),
+    );
+    let (table, _) = printed(Command::new("arm-none-eabi-size").arg(program));
+    let numbers = table.lines().nth(1).unwrap().split_whitespace().take(2);
+    let bytes: u32 = numbers.map(|number| number.parse::<u32>().unwrap()).sum();
+    eprintln!("{bytes} bytes of code and constants");
+    assert!(bytes <= 60 << 10, "{bytes}");
 }

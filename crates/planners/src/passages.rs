@@ -42,6 +42,17 @@ pub enum Unknown {
     Closed,
 }
 
+impl Unknown {
+    /// Returns whether a plan may cross a wall of which this is known.
+    fn is_open(self, known: Knowledge) -> bool {
+        match known {
+            Knowledge::Open => true,
+            Knowledge::Wall => false,
+            Knowledge::Unknown => self == Self::Open,
+        }
+    }
+}
+
 /// Returns the sides that a plan may cross, each as the northern or eastern one of a cell.
 ///
 /// # Errors
@@ -56,12 +67,8 @@ pub(crate) fn open_sides<const N: usize>(
         .cells()
         .flat_map(|cell| [(cell, Direction::North), (cell, Direction::East)]);
     Ok(sides.filter(move |(cell, direction)| {
-        let open = match walls.knowledge(*cell, *direction) {
-            Knowledge::Open => true,
-            Knowledge::Wall => false,
-            Knowledge::Unknown => unknown == Unknown::Open,
-        };
-        open && grid.neighbour(*cell, *direction).is_some()
+        unknown.is_open(walls.knowledge(*cell, *direction))
+            && grid.neighbour(*cell, *direction).is_some()
     }))
 }
 
@@ -72,14 +79,38 @@ impl<const N: usize> Passages<N> {
     /// If the maze has more than `N` columns or rows.
     pub fn new(walls: &impl Walls, unknown: Unknown) -> Result<Self, TooLarge> {
         const { assert!(N <= 255, "16 bits count the steps through all cells") };
-        let mut passages = Self { sides: [[0; N]; N] };
-        for (cell, direction) in open_sides::<N>(walls, unknown)? {
-            passages.open_side(cell, direction);
-            if let Some(next) = cell.beyond(direction) {
-                passages.open_side(next, direction.opposite());
+        let mut passages = Self::CLOSED;
+        passages.take(walls, unknown)?;
+        Ok(passages)
+    }
+
+    /// Nothing is open.
+    pub(crate) const CLOSED: Self = Self { sides: [[0; N]; N] };
+
+    /// Opens the known passages of a maze. In a small stack there is no room for a second copy, as
+    /// [`new`](Self::new) has it.
+    ///
+    /// # Errors
+    /// If the maze has more than `N` columns or rows.
+    pub(crate) fn take(&mut self, walls: &impl Walls, unknown: Unknown) -> Result<(), TooLarge> {
+        let grid = walls.grid();
+        TooLarge::check(grid, N)?;
+        // Chips do this at every decision, and plain loops take a third of what iterators take.
+        for y in 0..grid.height() {
+            for x in 0..grid.width() {
+                let cell = Cell::new(x, y);
+                if x + 1 < grid.width() && unknown.is_open(walls.knowledge(cell, Direction::East)) {
+                    self.open_side(cell, Direction::East);
+                    self.open_side(Cell::new(x + 1, y), Direction::West);
+                }
+                if y + 1 < grid.height() && unknown.is_open(walls.knowledge(cell, Direction::North))
+                {
+                    self.open_side(cell, Direction::North);
+                    self.open_side(Cell::new(x, y + 1), Direction::South);
+                }
             }
         }
-        Ok(passages)
+        Ok(())
     }
 
     fn open_side(&mut self, cell: Cell, direction: Direction) {

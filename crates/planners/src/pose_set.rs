@@ -111,6 +111,7 @@ impl<const N: usize> PoseSet<N> {
 
     /// Removes the poses that contradict an opening or a wall seen to `side` of the mouse. Unknown
     /// walls exclude nothing. O(N²).
+    #[inline(never)]
     pub fn see(&mut self, walls: &impl Walls, side: Direction, is_open: bool) {
         let contrary = Knowledge::of_standing(is_open);
         let fits = |(cell, heading): &(Cell, Direction)| {
@@ -120,6 +121,7 @@ impl<const N: usize> PoseSet<N> {
     }
 
     /// Moves all poses as a mouse that has turned to `side` and driven one cell. O(N²).
+    #[inline(never)]
     pub fn drive(&mut self, walls: &impl Walls, side: Direction) {
         let grid = self.grid;
         let driven = |(cell, heading): (Cell, Direction)| {
@@ -152,15 +154,18 @@ impl<const N: usize> PoseSet<N> {
 
     /// Returns the first direction of a drive that tells poses apart, or `None` if the known walls
     /// tell no pose from another. The drive leads, from one pose of the set and on known open ways,
-    /// to the next place that looks different for another pose. O(N² + poses · cells on known open
+    /// to the next place that looks different for another pose. O(N² + N · cells on known open
     /// ways), and as much again for each pose on such ways that cannot be told from any other.
     #[must_use]
+    #[inline(never)]
     pub fn next_drive(&mut self, walls: &impl Walls) -> Option<Direction> {
+        let mut looks = Looks::UNKNOWN;
+        looks.take(walls);
         let guess = self
             .guess
             .filter(|(cell, heading)| self.contains(*cell, *heading));
         let (guess, side) = guess.into_iter().chain(self.iter()).find_map(|guess| {
-            let side = self.nearest_difference(walls, guess)?;
+            let side = self.nearest_difference(&looks, guess)?;
             Some((guess, side))
         })?;
         self.guess = Some(guess);
@@ -169,28 +174,105 @@ impl<const N: usize> PoseSet<N> {
 
     /// Returns the side by which a mouse at this pose leaves for the nearest place with a wall that
     /// some other pose does not have, or the other way round.
-    fn nearest_difference(&self, walls: &impl Walls, pose: (Cell, Direction)) -> Option<Direction> {
-        let is_open = |side| walls.knowledge(pose.0, side) == Knowledge::Open;
-        if !Direction::ALL.into_iter().any(is_open) {
-            return None;
+    fn nearest_difference(&self, looks: &Looks<N>, pose: (Cell, Direction)) -> Option<Direction> {
+        let mut ways = Ways::NONE;
+        ways.heading = pose.1;
+        ways.is_new(pose.0);
+        ways.extend(looks, (pose.0, None));
+        let mut nearest: Option<((Cell, usize), Direction)> = None;
+        let mut first = 0;
+        while nearest.is_none() && first < ways.count {
+            let end = ways.count;
+            for number in first..end {
+                let (cell, by) = ways.get(number)?;
+                // Of equally near places the one that the first of the other poses differs in.
+                if let Some(other) = self.first_unlike(looks, pose, cell)
+                    && nearest.is_none_or(|(before, _)| order(other) < order(before))
+                {
+                    nearest = Some((other, by));
+                }
+                ways.extend(looks, (cell, Some(by)));
+            }
+            first = end;
         }
-        let reached = Reached::<N>::from(walls, pose);
-        let mut nearest: Option<Way> = None;
-        for other in self.iter().filter(|other| *other != pose) {
-            let nearer = |way: &Way| nearest.is_none_or(|nearest| way.cells < nearest.cells);
-            let mut ways = reached.ways().take_while(|(_, way)| nearer(way));
-            let telling = ways.find(|(cell, _)| differ(walls, *cell, pose, other));
-            nearest = telling.map(|(_, way)| way).or(nearest);
+        nearest.map(|(_, by)| by)
+    }
+
+    /// Returns the first pose, and the number of its heading, from which the way that leads from
+    /// `pose` to `cell` ends where a side is known to look otherwise.
+    fn first_unlike(
+        &self,
+        looks: &Looks<N>,
+        pose: (Cell, Direction),
+        cell: Cell,
+    ) -> Option<(Cell, usize)> {
+        let mut first: Option<(Cell, usize)> = None;
+        for (number, heading) in Direction::ALL.into_iter().enumerate() {
+            let turned = heading.seen_from(pose.1);
+            let (east, north) = offset(pose.0, cell, turned);
+            let unlike = Direction::ALL.map(|side| match looks.of(cell, side) {
+                Knowledge::Unknown => None,
+                Knowledge::Open => looks.walls.get(side.turned(turned).index()),
+                Knowledge::Wall => looks.open.get(side.turned(turned).index()),
+            });
+            // Beyond the north and the east there are walls; what lies in the south and the west is
+            // not compared.
+            let has_open = Direction::ALL
+                .into_iter()
+                .any(|side| looks.of(cell, side) == Knowledge::Open);
+            let beyond = if has_open { u32::MAX } else { 0 };
+            let width = i32::from(self.grid.width());
+            let inside = low_bits(width - east.max(0));
+            for (y, poses) in self.cells.get(number)?.iter().enumerate() {
+                let twin = y as i32 + north;
+                if *poses == 0 || twin < 0 {
+                    continue;
+                }
+                let row = |plane: Option<&[u32; N]>| plane?.get(twin as usize).copied();
+                let row = if twin < i32::from(self.grid.height()) {
+                    unlike
+                        .into_iter()
+                        .filter_map(row)
+                        .fold(0, |all, row| all | row)
+                } else {
+                    beyond & low_bits(width)
+                };
+                let row = if east < 0 {
+                    row << east.unsigned_abs()
+                } else {
+                    row >> east | beyond & !inside
+                };
+                let differ = row & poses;
+                if differ != 0 {
+                    let other = (Cell::new(differ.trailing_zeros() as u16, y as u16), number);
+                    if first.is_none_or(|before| order(other) < order(before)) {
+                        first = Some(other);
+                    }
+                    break;
+                }
+            }
         }
-        nearest.map(|way| way.side)
+        first
     }
 
     /// Returns the poses that are left: south-western cells first, and northern headings.
     pub fn iter(&self) -> impl Iterator<Item = (Cell, Direction)> {
-        let grid = self.grid;
-        grid.cells()
-            .flat_map(|cell| Direction::ALL.map(|heading| (cell, heading)))
-            .filter(|(cell, heading)| self.contains(*cell, *heading))
+        let [north, east, south, west] = &self.cells;
+        let rows = north.iter().zip(east).zip(south).zip(west).enumerate();
+        rows.flat_map(|(y, (((north, east), south), west))| {
+            let headings = [*north, *east, *south, *west];
+            let mut left = north | east | south | west;
+            let cells = core::iter::from_fn(move || {
+                let x = (left != 0).then_some(left.trailing_zeros())?;
+                left &= left - 1;
+                Some(x)
+            });
+            cells.flat_map(move |x| {
+                let poses = headings.into_iter().zip(Direction::ALL);
+                let here = poses.filter(move |(row, _)| row >> x & 1 == 1);
+                here.map(move |(_, heading)| (Cell::new(x as u16, y as u16), heading))
+            })
+        })
     }
 
     /// Returns whether the mouse can be in `cell` and look to `heading`.
@@ -202,111 +284,124 @@ impl<const N: usize> PoseSet<N> {
     }
 }
 
-/// A way to some cell.
-#[derive(Clone, Copy)]
-struct Way {
-    /// Length in cells.
-    cells: u16,
-    /// Direction of the way's first cell, in the mouse's frame.
-    side: Direction,
+/// What is known of the sides of all cells: by side and row; bit x.
+struct Looks<const N: usize> {
+    open: [[u32; N]; 4],
+    walls: [[u32; N]; 4],
 }
 
-/// Cells that a pose reaches by known open ways, nearest first.
-struct Reached<const N: usize> {
-    ways: [[Option<Way>; N]; N],
-    cells: [[u16; N]; N],
-    count: usize,
-}
+impl<const N: usize> Looks<N> {
+    const UNKNOWN: Self = Self {
+        open: [[0; N]; 4],
+        walls: [[0; N]; 4],
+    };
 
-impl<const N: usize> Reached<N> {
-    fn from(walls: &impl Walls, (start, heading): (Cell, Direction)) -> Self {
-        let mut reached = Self {
-            ways: [[None; N]; N],
-            cells: [[0; N]; N],
-            count: 0,
-        };
-        reached.push(start);
-        let mut at = 0;
-        while let Some(cell) = reached.cell(at) {
-            let way = reached.way(cell);
+    fn take(&mut self, walls: &impl Walls) {
+        for cell in walls.grid().cells() {
             for side in Direction::ALL {
-                let direction = heading.turned(side);
-                let is_open = walls.knowledge(cell, direction) == Knowledge::Open;
-                let next = walls.grid().neighbour(cell, direction);
-                let Some(next) = next.filter(|next| is_open && *next != start) else {
-                    continue;
+                let plane = match walls.knowledge(cell, side) {
+                    Knowledge::Unknown => continue,
+                    Knowledge::Open => &mut self.open,
+                    Knowledge::Wall => &mut self.walls,
                 };
-                let row = reached.ways.get_mut(usize::from(next.y));
-                let slot = row.and_then(|row| row.get_mut(usize::from(next.x)));
-                if let Some(slot @ None) = slot {
-                    *slot = Some(Way {
-                        cells: way.map_or(0, |way| way.cells) + 1,
-                        side: way.map_or(side, |way| way.side),
-                    });
-                    reached.push(next);
+                let rows = plane.get_mut(side.index());
+                if let Some(row) = rows.and_then(|rows| rows.get_mut(usize::from(cell.y))) {
+                    *row |= 1 << (cell.x % 32);
                 }
             }
-            at += 1;
-        }
-        reached
-    }
-
-    fn push(&mut self, cell: Cell) {
-        if let Some(slot) = self.cells.as_flattened_mut().get_mut(self.count) {
-            *slot = cell.y << 8 | cell.x;
-            self.count += 1;
         }
     }
 
-    fn cell(&self, at: usize) -> Option<Cell> {
-        let cells = self.cells.as_flattened().get(..self.count)?;
-        cells.get(at).map(|cell| Cell::new(cell & 0xff, cell >> 8))
+    fn of(&self, cell: Cell, side: Direction) -> Knowledge {
+        let is_in = |plane: &[[u32; N]; 4]| {
+            let row = plane
+                .get(side.index())
+                .and_then(|rows| rows.get(usize::from(cell.y)));
+            row.is_some_and(|row| row >> (cell.x % 32) & 1 == 1)
+        };
+        match (is_in(&self.open), is_in(&self.walls)) {
+            (true, _) => Knowledge::Open,
+            (_, true) => Knowledge::Wall,
+            _ => Knowledge::Unknown,
+        }
     }
+}
 
-    fn way(&self, cell: Cell) -> Option<Way> {
-        let row = self.ways.get(usize::from(cell.y))?;
-        *row.get(usize::from(cell.x))?
-    }
+/// Cells that a pose reaches by known open ways, nearest first, and the side of the pose by which
+/// the way to each begins. The pose's own cell is left out.
+struct Ways<const N: usize> {
+    heading: Direction,
+    /// Five bits each for x and y, and the side.
+    cells: [[u16; N]; N],
+    count: usize,
+    /// By y; bit x.
+    seen: [u32; N],
+}
 
-    /// Returns all cells but the first one, with the ways there.
-    fn ways(&self) -> impl Iterator<Item = (Cell, Way)> {
-        (1..self.count).filter_map(|at| {
-            let cell = self.cell(at)?;
-            Some((cell, self.way(cell)?))
+impl<const N: usize> Ways<N> {
+    const NONE: Self = Self {
+        heading: Direction::North,
+        cells: [[0; N]; N],
+        count: 0,
+        seen: [0; N],
+    };
+
+    /// Returns whether a cell was not seen before, and remembers it.
+    fn is_new(&mut self, cell: Cell) -> bool {
+        let bit = 1 << (cell.x % 32);
+        let row = self.seen.get_mut(usize::from(cell.y));
+        row.is_some_and(|row| {
+            let is_new = *row & bit == 0;
+            *row |= bit;
+            is_new
         })
     }
+
+    /// Adds the cells beside `cell`, the way to which begins by this side.
+    fn extend(&mut self, looks: &Looks<N>, (cell, by): (Cell, Option<Direction>)) {
+        for side in Direction::ALL {
+            let direction = self.heading.turned(side);
+            if looks.of(cell, direction) == Knowledge::Open
+                && let Some(next) = cell.beyond(direction)
+                && self.is_new(next)
+                && let Some(slot) = self.cells.as_flattened_mut().get_mut(self.count)
+            {
+                let by = by.unwrap_or(side).index() as u16;
+                *slot = by << 10 | next.y << 5 | next.x;
+                self.count += 1;
+            }
+        }
+    }
+
+    fn get(&self, number: usize) -> Option<(Cell, Direction)> {
+        let way = self.cells.as_flattened().get(number)?;
+        let by = Direction::ALL.get(usize::from(way >> 10))?;
+        Some((Cell::new(way & 31, way >> 5 & 31), *by))
+    }
 }
 
-/// Returns whether a cell has a side that is known to be other than that of its twin, when a mouse
-/// drives the same way from the pose `other` as from `first` to the cell.
-fn differ(
-    walls: &impl Walls,
-    cell: Cell,
-    first: (Cell, Direction),
-    other: (Cell, Direction),
-) -> bool {
-    let Some(twin) = twin(cell, first, other) else {
-        return false;
-    };
-    Direction::ALL.into_iter().any(|side| {
-        let ours = walls.knowledge(cell, first.1.turned(side));
-        let theirs = walls.knowledge(twin, other.1.turned(side));
-        ours.is_known() && theirs.is_known() && ours != theirs
-    })
+/// Returns the order of poses: south-western cells first, and northern headings.
+const fn order((cell, heading): (Cell, usize)) -> usize {
+    ((cell.y as usize) << 5 | cell.x as usize) << 2 | heading
 }
 
-/// Returns the cell of a mouse that began at `other`, when one that began at `first` and drove the
-/// same way is in `cell`. `None` if it lies west or south of the grid.
-fn twin(cell: Cell, first: (Cell, Direction), other: (Cell, Direction)) -> Option<Cell> {
-    let east = i32::from(cell.x) - i32::from(first.0.x);
-    let north = i32::from(cell.y) - i32::from(first.0.y);
-    let (east, north) = match other.1.seen_from(first.1) {
+/// Returns a word with this many low bits.
+const fn low_bits(count: i32) -> u32 {
+    match count {
+        ..=0 => 0,
+        1..32 => u32::MAX >> (32 - count),
+        _ => u32::MAX,
+    }
+}
+
+/// Returns how far `to` lies east and north of `from`, in a frame that is turned.
+fn offset(from: Cell, to: Cell, turned: Direction) -> (i32, i32) {
+    let east = i32::from(to.x) - i32::from(from.x);
+    let north = i32::from(to.y) - i32::from(from.y);
+    match turned {
         Direction::North => (east, north),
         Direction::East => (north, -east),
         Direction::South => (-east, -north),
         Direction::West => (-north, east),
-    };
-    let x = u16::try_from(i32::from(other.0.x) + east).ok()?;
-    let y = u16::try_from(i32::from(other.0.y) + north).ok()?;
-    Some(Cell::new(x, y))
+    }
 }

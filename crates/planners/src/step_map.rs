@@ -37,12 +37,26 @@ impl<const N: usize> StepMap<N> {
     #[must_use]
     pub fn new(passages: &Passages<N>, targets: impl IntoIterator<Item = Cell>) -> Self {
         const { assert!(N <= 255, "16 bits count the steps through all cells") };
-        let mut map = Self {
-            steps: [[NEVER; N]; N],
-        };
+        let mut map = Self::NOWHERE;
+        map.flood(passages, targets);
+        map
+    }
+
+    /// No way leads to a target.
+    pub(crate) const NOWHERE: Self = Self {
+        steps: [[NEVER; N]; N],
+    };
+
+    /// Counts the steps, in the caller's memory: in a small stack there is no room for two maps.
+    #[inline(never)]
+    pub(crate) fn flood(
+        &mut self,
+        passages: &Passages<N>,
+        targets: impl IntoIterator<Item = Cell>,
+    ) {
         let mut queue = [[0_u16; N]; N];
         let queue = queue.as_flattened_mut();
-        let steps = map.steps.as_flattened_mut();
+        let steps = self.steps.as_flattened_mut();
         let (mut first, mut last) = (0, 0);
         let mut reach = |steps: &mut [u16], queue: &mut [u16], cell: usize, step: u16| {
             if let (Some(slot @ &mut NEVER), Some(free)) =
@@ -79,7 +93,6 @@ impl<const N: usize> StepMap<N> {
                 }
             }
         }
-        map
     }
 
     /// Returns the number of steps from `cell` to the nearest target, or `None` if no way leads

@@ -12,8 +12,12 @@ pub trait CellTimes: Copy {
     /// Returns the duration of a state, ms, or 2³⁰ if no goal is in reach from it.
     fn of(&self, state: usize) -> u32;
 
-    /// Sets the duration of a state, ms, if it can be held, and returns whether it can.
-    fn set(&mut self, state: usize, time: u32) -> bool;
+    /// Returns whether a state was reached later than at this time, ms, or never. No state was if
+    /// the time cannot be held.
+    fn is_later(&self, state: usize, time: u32) -> bool;
+
+    /// Sets the duration of a state that was reached later, ms.
+    fn set(&mut self, state: usize, time: u32);
 }
 
 impl<const S: usize> CellTimes for [u32; S] {
@@ -25,8 +29,15 @@ impl<const S: usize> CellTimes for [u32; S] {
     }
 
     #[inline(always)]
-    fn set(&mut self, state: usize, time: u32) -> bool {
-        self.get_mut(state).map(|slot| *slot = time).is_some()
+    fn is_later(&self, state: usize, time: u32) -> bool {
+        self.get(state).is_some_and(|slot| time < *slot)
+    }
+
+    #[inline(always)]
+    fn set(&mut self, state: usize, time: u32) {
+        if let Some(slot) = self.get_mut(state) {
+            *slot = time;
+        }
     }
 }
 
@@ -42,13 +53,15 @@ impl<const S: usize> CellTimes for [u16; S] {
     }
 
     #[inline(always)]
-    fn set(&mut self, state: usize, time: u32) -> bool {
-        match self.get_mut(state) {
-            Some(slot) if time < u32::from(u16::MAX) => {
-                *slot = time as u16;
-                true
-            }
-            _ => false,
+    fn is_later(&self, state: usize, time: u32) -> bool {
+        // The largest number stands for all times that cannot be held.
+        self.get(state).is_some_and(|slot| time < u32::from(*slot))
+    }
+
+    #[inline(always)]
+    fn set(&mut self, state: usize, time: u32) {
+        if let Some(slot) = self.get_mut(state) {
+            *slot = time as u16;
         }
     }
 }

@@ -7,8 +7,8 @@ use super::state::Node;
 pub(super) struct Estimate<const N: usize> {
     /// Column and row of the cell in which the run ends.
     end: (usize, usize),
-    /// 1/16 ms for each cell of the way to the end.
-    per_cell: u32,
+    /// 1/16 ms for each cell of the way to the end along an axis, and for each along both.
+    per_cell: [u32; 2],
     /// Duration of the fastest run found so far, ms.
     pub(super) at_most: u32,
 }
@@ -18,7 +18,7 @@ impl<const N: usize> Estimate<N> {
         let cell = end.map_or(0, |end| end.cell);
         Self {
             end: (cell % N, cell / N),
-            per_cell: end.map_or(0, |_| times.per_cell()),
+            per_cell: end.map_or([0; 2], |_| times.per_cell()),
             at_most: NEVER,
         }
     }
@@ -29,10 +29,9 @@ impl<const N: usize> Estimate<N> {
     pub(super) fn of_run(&self, time: u32, cell: usize) -> u32 {
         let east = (cell % N).abs_diff(self.end.0) as u32;
         let north = (cell / N).abs_diff(self.end.1) as u32;
-        // The larger of the way along an axis and the way along a diagonal, in 1/256 cells: 181/256
-        // is a little less than √½.
-        let distance = (256 * east.max(north)).max(181 * (east + north));
-        time + ((distance * self.per_cell) >> 12)
+        let [along, across] = self.per_cell;
+        let both = east.min(north);
+        time + (((east.max(north) - both) * along + both * across) >> 4)
     }
 }
 

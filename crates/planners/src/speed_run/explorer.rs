@@ -1,6 +1,8 @@
+use core::borrow::BorrowMut;
+
 use tolman_maze::{Cell, Direction, Knowledge, Walls};
 
-use super::{CellTimes, RunState, SpeedRunPlanner, SpeedRunTimes};
+use super::{CellTimes, RunState, SpeedRunMap, SpeedRunPlanner, SpeedRunTimes};
 use crate::{Passages, StepMap, TooLarge, Unknown};
 
 /// Explores a maze cell by cell until the best speed run is known for certain, and comes back.
@@ -13,8 +15,8 @@ use crate::{Passages, StepMap, TooLarge, Unknown};
 /// The explorer compares its stored passages with `walls` at each call. So walls may be forgotten
 /// again at any time.
 #[derive(Clone, Debug)]
-pub struct SpeedRunExplorer<'a, const N: usize, C: CellTimes = [u32; 16]> {
-    planner: SpeedRunPlanner<'a, N, C>,
+pub struct SpeedRunExplorer<'a, const N: usize, C: CellTimes = [u32; 16], M = SpeedRunMap<N, C>> {
+    planner: SpeedRunPlanner<'a, N, C, M>,
     home: Cell,
     stage: ExploreStage,
 }
@@ -55,12 +57,29 @@ impl<'a, const N: usize, C: CellTimes> SpeedRunExplorer<'a, N, C> {
         heading: Direction,
         goals: &'a [Cell],
     ) -> Self {
+        Self::with_map(times, home, heading, goals, SpeedRunMap::new())
+    }
+}
+
+impl<'a, const N: usize, C: CellTimes, M: BorrowMut<SpeedRunMap<N, C>>>
+    SpeedRunExplorer<'a, N, C, M>
+{
+    /// Returns the same as [`new`](SpeedRunExplorer::new), but for a map of its own or one that is
+    /// lent, [new](SpeedRunMap::new) or [cleared](SpeedRunMap::clear).
+    #[must_use]
+    pub const fn with_map(
+        times: &'a SpeedRunTimes<N>,
+        home: Cell,
+        heading: Direction,
+        goals: &'a [Cell],
+        map: M,
+    ) -> Self {
         let start = RunState::Straight {
             cell: home,
             heading,
         };
         Self {
-            planner: SpeedRunPlanner::new(times, start, goals),
+            planner: SpeedRunPlanner::with_map(times, start, goals, map),
             home,
             stage: ExploreStage::Search,
         }
@@ -76,6 +95,7 @@ impl<'a, const N: usize, C: CellTimes> SpeedRunExplorer<'a, N, C> {
     ///
     /// # Errors
     /// If the maze has more than `N` columns or rows.
+    #[inline(never)]
     pub fn decide(
         &mut self,
         walls: &impl Walls,
@@ -85,7 +105,8 @@ impl<'a, const N: usize, C: CellTimes> SpeedRunExplorer<'a, N, C> {
         if self.stage != ExploreStage::Search || self.planner.goals().contains(&at) {
             self.stage = ExploreStage::Proof;
         }
-        let hoped = Passages::new(walls, Unknown::Open)?;
+        let mut hoped = Passages::CLOSED;
+        hoped.take(walls, Unknown::Open)?;
         self.planner.update(&hoped);
         let Some(run_ms) = self.planner.time_ms() else {
             return Ok(Decision::Stuck);
@@ -104,16 +125,22 @@ impl<'a, const N: usize, C: CellTimes> SpeedRunExplorer<'a, N, C> {
         if self.stage == ExploreStage::Proof && targets.peek().is_none() {
             self.stage = ExploreStage::Home;
         }
-        let steps = match self.stage {
-            ExploreStage::Search => {
-                StepMap::new(&hoped, targets.chain(self.planner.goals().iter().copied()))
-            }
-            ExploreStage::Proof => StepMap::new(&hoped, targets),
-            ExploreStage::Home if at == self.home => return Ok(Decision::Finished { run_ms }),
-            ExploreStage::Home => {
-                StepMap::new(&Passages::new(walls, Unknown::Closed)?, [self.home])
-            }
+        if self.stage == ExploreStage::Home && at == self.home {
+            return Ok(Decision::Finished { run_ms });
+        }
+        let goals = match self.stage {
+            ExploreStage::Search => self.planner.goals(),
+            ExploreStage::Proof | ExploreStage::Home => &[],
         };
+        // Home on known ways; nothing is left to look at then.
+        let home = (self.stage == ExploreStage::Home).then_some(self.home);
+        let mut known = Passages::CLOSED;
+        if home.is_some() {
+            known.take(walls, Unknown::Closed)?;
+        }
+        let passages = if home.is_some() { &known } else { &hoped };
+        let mut steps = StepMap::NOWHERE;
+        steps.flood(passages, targets.chain(goals.iter().copied()).chain(home));
         let order = [heading, heading.left(), heading.right(), heading.opposite()];
         let open = order
             .into_iter()
@@ -130,7 +157,7 @@ impl<'a, const N: usize, C: CellTimes> SpeedRunExplorer<'a, N, C> {
 
     /// Returns the planner. Its run is the best possible one, and in the end the proven best.
     #[must_use]
-    pub const fn planner(&self) -> &SpeedRunPlanner<'a, N, C> {
+    pub const fn planner(&self) -> &SpeedRunPlanner<'a, N, C, M> {
         &self.planner
     }
 }

@@ -71,6 +71,13 @@ impl<const N: usize, C: CellTimes> SpeedRunMap<N, C> {
         }
     }
 
+    /// Forgets all times, as if no goal were in reach from anywhere.
+    pub fn clear(&mut self) {
+        self.times.as_flattened_mut().fill(C::NOWHERE);
+        self.waiting.as_flattened_mut().fill(0);
+        self.buckets.clear();
+    }
+
     /// Recomputes the times to `goals`. O(N² · N): each state looks along one straight.
     pub fn search(
         &mut self,
@@ -98,9 +105,7 @@ impl<const N: usize, C: CellTimes> SpeedRunMap<N, C> {
         goals: &[Cell],
         last: Option<Node>,
     ) {
-        self.times.as_flattened_mut().fill(C::NOWHERE);
-        self.waiting.as_flattened_mut().fill(0);
-        self.buckets.clear();
+        self.clear();
         let mut estimate = Estimate::to(last, times);
         let side = N as u16;
         for goal in goals.iter().filter(|goal| goal.x < side && goal.y < side) {
@@ -152,15 +157,23 @@ impl<const N: usize, C: CellTimes> SpeedRunMap<N, C> {
 
     #[inline(always)]
     fn time(&self, node: Node) -> u32 {
-        let times = self.times.as_flattened().get(node.cell);
+        let times = self.times.as_flattened().get(node.cell % (N * N));
         times.map_or(NEVER, |times| times.of(node.state))
     }
 
-    /// Sets the time to a state, and returns whether there is room for it.
+    /// Sets the time to a state.
     #[inline(always)]
-    fn set(&mut self, node: Node, time: u32) -> bool {
-        let times = self.times.as_flattened_mut().get_mut(node.cell);
-        times.is_some_and(|times| times.set(node.state, time))
+    fn set(&mut self, node: Node, time: u32) {
+        if let Some(times) = self.times.as_flattened_mut().get_mut(node.cell % (N * N)) {
+            times.set(node.state, time);
+        }
+    }
+
+    /// Returns whether a state was reached later than this, and this can be held.
+    #[inline(always)]
+    fn is_later(&self, node: Node, time: u32) -> bool {
+        let times = self.times.as_flattened().get(node.cell % (N * N));
+        times.is_some_and(|times| times.is_later(node.state, time))
     }
 
     /// Drives on from every waiting state of `cell`.
@@ -189,10 +202,10 @@ impl<const N: usize, C: CellTimes> SpeedRunMap<N, C> {
                 }
                 let takes = lengths.get(length).copied().map_or(NEVER, u32::from);
                 let arrives = time + takes;
-                if arrives < best
+                if self.is_later(to, arrives)
                     && estimate.of_run(arrives, to.cell) <= estimate.at_most
-                    && self.set(to, arrives)
                 {
+                    self.set(to, arrives);
                     if let Some(waiting) =
                         self.waiting.as_flattened_mut().get_mut(to.cell % (N * N))
                     {
@@ -224,8 +237,13 @@ impl<const N: usize, C: CellTimes> SpeedRunMap<N, C> {
 
     #[inline(always)]
     fn reach(&mut self, node: Node, time: u32, estimate: &Estimate<N>, times: &SpeedRunTimes<N>) {
+        // Three of four were reached sooner.
+        if !self.is_later(node, time) {
+            return;
+        }
         let whole = estimate.of_run(time, node.cell);
-        if time < self.time(node) && whole <= estimate.at_most && self.set(node, time) {
+        if whole <= estimate.at_most {
+            self.set(node, time);
             if let Some(waiting) = self.waiting.as_flattened_mut().get_mut(node.cell % (N * N)) {
                 *waiting |= 1 << node.state;
             }

@@ -1,3 +1,6 @@
+use core::borrow::BorrowMut;
+use core::marker::PhantomData;
+
 use tolman_maze::Cell;
 
 use super::{CellTimes, Extent, RunState, SpeedRun, SpeedRunMap, SpeedRunTimes};
@@ -7,12 +10,15 @@ use crate::Passages;
 ///
 /// Walls that turn up make no run faster. So as long as a best run found earlier can still be
 /// driven, it is a best run still, and nothing has to be searched.
+///
+/// `M` is the map that it searches, its own or one that was lent to it.
 #[derive(Clone, Debug)]
-pub struct SpeedRunPlanner<'a, const N: usize, C: CellTimes = [u32; 16]> {
+pub struct SpeedRunPlanner<'a, const N: usize, C: CellTimes = [u32; 16], M = SpeedRunMap<N, C>> {
     times: &'a SpeedRunTimes<N>,
     start: RunState,
     goals: &'a [Cell],
-    map: SpeedRunMap<N, C>,
+    map: M,
+    held: PhantomData<C>,
     /// Passages of the last search.
     searched: Option<Passages<N>>,
 }
@@ -30,17 +36,35 @@ impl<'a, const N: usize, C: CellTimes> SpeedRunPlanner<'a, N, C> {
     /// Returns a planner that has seen no maze yet.
     #[must_use]
     pub const fn new(times: &'a SpeedRunTimes<N>, start: RunState, goals: &'a [Cell]) -> Self {
+        Self::with_map(times, start, goals, SpeedRunMap::new())
+    }
+}
+
+impl<'a, const N: usize, C: CellTimes, M: BorrowMut<SpeedRunMap<N, C>>>
+    SpeedRunPlanner<'a, N, C, M>
+{
+    /// Returns a planner that has seen no maze yet, and searches this map. The map has to be
+    /// [new](SpeedRunMap::new) or [cleared](SpeedRunMap::clear).
+    #[must_use]
+    pub const fn with_map(
+        times: &'a SpeedRunTimes<N>,
+        start: RunState,
+        goals: &'a [Cell],
+        map: M,
+    ) -> Self {
         Self {
             times,
             start,
             goals,
-            map: SpeedRunMap::new(),
+            map,
+            held: PhantomData,
             searched: None,
         }
     }
 
     /// Takes in the present openings. O(N²) if one of the known best runs is still open, else as
     /// [`SpeedRunMap::search`].
+    #[inline(never)]
     pub fn update(&mut self, passages: &Passages<N>) -> Replanning {
         let only_closed = |before: &Passages<N>| passages.is_within(before);
         if self.searched.as_ref().is_some_and(only_closed) {
@@ -51,7 +75,9 @@ impl<'a, const N: usize, C: CellTimes> SpeedRunPlanner<'a, N, C> {
             }
         }
         let extent = Extent::Until(self.start);
-        self.map.search(passages, self.times, self.goals, extent);
+        self.map
+            .borrow_mut()
+            .search(passages, self.times, self.goals, extent);
         self.searched = Some(passages.clone());
         Replanning::Searched
     }
@@ -60,13 +86,13 @@ impl<'a, const N: usize, C: CellTimes> SpeedRunPlanner<'a, N, C> {
     /// first update.
     #[must_use]
     pub fn time_ms(&self) -> Option<u32> {
-        self.map.time_ms(self.start)
+        self.map.borrow().time_ms(self.start)
     }
 
     /// Returns a best run on the passages of the last update.
     #[must_use]
     pub fn run<'b>(&'b self, passages: &'b Passages<N>) -> SpeedRun<'b, N, C> {
-        self.map.run(passages, self.times, self.start)
+        self.map.borrow().run(passages, self.times, self.start)
     }
 
     /// Returns the state in which the runs begin.

@@ -33,10 +33,11 @@ pub struct SpeedRunTimes<const N: usize> {
     /// Times of the turns to the left and to the right in the order of [`Slalom`], ms; [`NEVER`]
     /// for those that the mouse does not make.
     turns: [[u32; 6]; 2],
-    /// 2¹⁶ by twice the time of the shortest move.
+    /// 2¹⁶ by the time of the shortest move.
     bucket_scale: u32,
-    /// What the fastest move takes for each cell that it leads on, 1/16 ms.
-    per_cell: u32,
+    /// What the fastest moves take for each cell along an axis, and for each along both axes, 1/16
+    /// ms.
+    per_cell: [u32; 2],
     /// Whether the mouse turns within a cell, from side to side: then straights have half cells.
     has_halves: bool,
 }
@@ -92,7 +93,7 @@ impl<const N: usize> SpeedRunTimes<N> {
             });
         }
         // Wider buckets are fewer, narrower ones let less be driven again. This was fastest.
-        let bucket_scale = (1_u32 << 16) / (2 * shortest_ms as u32);
+        let bucket_scale = (1 << 16) / shortest_ms as u32;
         // All fit in 16 bits: none is longer than the longest.
         let mut times = Self {
             straight: array::from_fn(|cells| straight_ms(2 * cells) as u16),
@@ -100,35 +101,36 @@ impl<const N: usize> SpeedRunTimes<N> {
             diagonal: array::from_fn(|half| array::from_fn(|n| diagonal_ms(half * N + n) as u16)),
             turns,
             bucket_scale,
-            per_cell: 0,
+            per_cell: [0; 2],
             has_halves,
         };
         // Times of cells beyond 8 s would not fit into the estimate.
-        times.per_cell = (16.0 * times.fastest_ms_per_cell()).min(f64::from(1 << 17)) as u32;
+        let [along, across] = times.fastest_ms_per_cell();
+        let along = (16.0 * along).min(f64::from(1 << 17)) as u32;
+        times.per_cell = [along, ((16.0 * across) as u32).min(2 * along)];
         Ok(times)
     }
 
-    /// Returns the least time of a move for each cell that it leads on, ms. A straight of n half
-    /// cells leads on by n / 2 cells, rounded up. A diagonal of n half cell diagonals leads on by n
-    /// √½ cells, or by one cell if n = 1; a turn by at most √2 cells.
-    fn fastest_ms_per_cell(&self) -> f64 {
-        use core::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
+    /// Returns the least times of moves for each cell that they lead on, ms: along an axis, and
+    /// along both axes at once. A straight of n half cells leads on along an axis by n / 2 cells,
+    /// rounded up. A diagonal of n half cell diagonals leads on along both by n / 2, rounded down,
+    /// and along one of them by one more if n is odd; a turn at most along both by 1.
+    fn fastest_ms_per_cell(&self) -> [f64; 2] {
+        let turns = self.turns.as_flattened().iter();
+        let turns = turns.fold(f64::INFINITY, |least, ms| least.min(f64::from(*ms)));
         let straights = self.halves.as_flattened().iter().enumerate().skip(1);
-        let straights = straights
-            .filter(|(halves, _)| self.has_halves || halves.is_multiple_of(2))
-            .map(|(halves, ms)| f64::from(*ms) / halves.div_ceil(2) as f64);
-        let diagonals = self.diagonals().iter().enumerate().skip(1);
-        let diagonals = diagonals
-            .map(|(halves, ms)| f64::from(*ms) / f64::max(1.0, FRAC_1_SQRT_2 * halves as f64));
-        let turns = self
-            .turns
-            .as_flattened()
-            .iter()
-            .map(|ms| f64::from(*ms) / SQRT_2);
-        straights
-            .chain(diagonals)
-            .chain(turns)
-            .fold(f64::INFINITY, f64::min)
+        let straights = straights.map(|(n, ms)| f64::from(*ms) / n.div_ceil(2) as f64);
+        let one = self
+            .diagonals()
+            .get(1)
+            .map_or(f64::INFINITY, |ms| f64::from(*ms));
+        let along = straights.fold(one.min(turns), f64::min);
+        let diagonals = self.diagonals().iter().enumerate().skip(2);
+        let across = diagonals.map(|(n, ms)| {
+            let rest = f64::from(*ms) - along * (n % 2) as f64;
+            rest / (n / 2) as f64
+        });
+        [along, across.fold(turns.min(2.0 * along), f64::min)]
     }
 
     /// Returns the duration of a straight of `half_cells` half cells, ms, between the middles of
@@ -190,7 +192,7 @@ impl<const N: usize> SpeedRunTimes<N> {
         turns.get(slalom as usize).copied().unwrap_or(NEVER)
     }
 
-    pub(super) const fn per_cell(&self) -> u32 {
+    pub(super) const fn per_cell(&self) -> [u32; 2] {
         self.per_cell
     }
 

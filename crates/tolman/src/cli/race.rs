@@ -5,11 +5,13 @@ mod half_known;
 mod params;
 mod route;
 mod shown;
+mod speeds;
 mod told;
 mod written;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
 use anyhow::{Context, anyhow};
 use tolman_arena::competition;
@@ -21,8 +23,9 @@ use super::looks::Looks;
 use super::maze::{Collection, Marks};
 use super::mice::{MazePath, maze_or, send_all};
 use super::mouse::Way;
+use super::outputs::{self, Output};
 use super::words::words;
-use super::{OrBadInput, Result, maze};
+use super::{OrBadInput, Result, file, maze};
 use params::Params;
 use shown::Shown;
 use written::{Route, WRITINGS, Writing};
@@ -45,7 +48,7 @@ their times. Both ways are also given as the letters of kerikun11/micromouse-maz
   running     S a cell, s half a cell, w half a diagonal; to the left and right z c F45, q Q F90, a d F135, u U F180,
               p P FV90, L R FS90 (within a cell); Z C A D out of a diagonal
 
---live, --svg, --trace and --replay need a single maze.
+--live, --svg, --speeds, --trace and --replay need a single maze.
 
 Examples:
   tolman race mazes/grid/braided-2.txt --svg race.svg --replay race.html
@@ -70,12 +73,15 @@ pub(super) struct Arguments {
     /// How the run's moves are written
     #[arg(long, value_name = "WRITING", default_value = "letters", value_parser = words(WRITINGS))]
     moves: Writing,
+    /// Draw the speeds of the run over time, a line for each mouse
+    #[arg(long, value_name = "FILE", value_parser = outputs::file(&["svg"]), conflicts_with = "route")]
+    speeds: Option<Output>,
     /// Drive no diagonals; without --mouse, as a first mouse with turns of 90° within a cell only
     #[arg(long)]
     no_diagonals: bool,
     /// Print a file for --mouse that explains every number
     #[arg(long, value_name = "KIND", num_args = 0..=1, default_missing_value = "classic", value_parser = words(KINDS),
-        conflicts_with_all = ["mouse", "jobs", "json", "live", "svg", "trace", "replay"])]
+        conflicts_with_all = ["mouse", "jobs", "json", "live", "svg", "trace", "replay", "speeds"])]
     template: Option<Kind>,
     /// Number of mazes at a time, instead of one per core
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
@@ -148,6 +154,15 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     if mice.len() > 1 {
         looks.of_one(path, mice.len())?;
     }
+    let mazes = collection.mazes.len();
+    if arguments.speeds.is_some() && mazes != 1 {
+        let path = path.display();
+        return Err(anyhow!(
+            "--speeds needs a single maze, but {path} holds {mazes}: name a file"
+        ))
+        .or_bad_input();
+    }
+    let speeds = Mutex::new(Vec::new());
     for (number, params) in mice.iter().enumerate() {
         let driver = arguments.mouse.get(number).filter(|_| mice.len() > 1);
         let driver = driver.map(|file| file.display().to_string());
@@ -156,11 +171,25 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
             arguments.jobs,
             looks,
             out,
-            |file, maze| send(file, maze, params, (driver.clone(), arguments.moves), looks),
+            |file, maze| {
+                let sent = send(file, maze, params, (driver.clone(), arguments.moves), looks)?;
+                if let (Some(_), Some(explored)) = (&arguments.speeds, &sent.0.explored) {
+                    let line = speeds::over_time(&explored.run, &sent.0.config);
+                    let mut all = speeds.lock().unwrap_or_else(PoisonError::into_inner);
+                    all.push((driver.clone().unwrap_or_default(), line));
+                }
+                Ok(sent)
+            },
             |_, _| Ok(()),
         )?;
     }
-    Ok(())
+    match &arguments.speeds {
+        Some(path) => {
+            let speeds = speeds.into_inner().unwrap_or_else(PoisonError::into_inner);
+            file::write(path, speeds::picture(speeds))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Returns every maze with every mouse.

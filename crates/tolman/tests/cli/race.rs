@@ -290,3 +290,155 @@ fn corridor(cells: usize) -> String {
     let line = format!("{}+\n", "+---".repeat(cells));
     format!("{line}|{}|\n{line}", " ".repeat(4 * cells - 1))
 }
+
+/// Moves of the JSON, driven by a geometry of this test's own: walls are read off the drawing, and
+/// each move is a row of half steps and eighths of a turn.
+mod replayed {
+    use serde_json::Value;
+
+    /// Half steps to the east and north, by eighths of a turn counter-clockwise from east.
+    const STEP: [(i64, i64); 8] = [
+        (1, 0),
+        (1, 1),
+        (0, 1),
+        (-1, 1),
+        (-1, 0),
+        (-1, -1),
+        (0, -1),
+        (1, -1),
+    ];
+
+    /// Returns whether a place in half cells is free: the middle of a cell, or an open side.
+    fn is_free(drawing: &[Vec<char>], x: i64, y: i64) -> bool {
+        let row = drawing.len() as i64 - 1 - y;
+        let at = |column: i64| {
+            let line = usize::try_from(row).ok().and_then(|row| drawing.get(row));
+            let letter = line.zip(usize::try_from(column).ok());
+            letter.and_then(|(line, column)| line.get(column)).copied()
+        };
+        match (x.rem_euclid(2), y.rem_euclid(2)) {
+            (1, 1) => x > 0 && y > 0,
+            (0, 1) => at(2 * x) == Some(' '),
+            (1, 0) => at(2 * x) == Some(' '),
+            // A post.
+            _ => false,
+        }
+    }
+
+    /// Returns the angles of a turn, in eighths, with half a step before and after each.
+    fn angles(kind: &str, is_diagonal: bool) -> &'static [i64] {
+        match (kind, is_diagonal) {
+            ("F45", _) => &[1],
+            ("F90", _) => &[1, 1],
+            ("F135", false) => &[1, 2],
+            ("F135", true) => &[2, 1],
+            ("F180", _) => &[1, 2, 1],
+            ("FV90" | "FS90", _) => &[2],
+            _ => panic!("{kind}"),
+        }
+    }
+
+    /// Drives all moves of a line, and returns how many there are.
+    pub(super) fn check(line: &Value, drawing: &str) -> usize {
+        let rows: Vec<Vec<char>> = drawing
+            .lines()
+            .filter(|line| line.starts_with(['o', '+', '|']))
+            .map(|line| line.chars().collect())
+            .collect();
+        let number = |value: &Value| value.as_i64().unwrap();
+        let moves = line["moves"].as_array().unwrap();
+        let first = &moves[0]["from"];
+        let (mut x, mut y) = (number(&first["half_x"]), number(&first["half_y"]));
+        let mut eighths = number(&first["heading_deg"]).rem_euclid(360) / 45;
+        let mut total = number(&line["start_ms"]) + number(&line["stop_ms"]);
+        for one in moves {
+            let from = &one["from"];
+            let told = (number(&from["half_x"]), number(&from["half_y"]));
+            assert_eq!(told, (x, y), "{one} in {line}");
+            let heading = number(&from["heading_deg"]).rem_euclid(360) / 45;
+            assert_eq!(heading, eighths, "{one} in {line}");
+            total += number(&one["time_ms"]);
+            let go = |x: &mut i64, y: &mut i64, eighths: i64| {
+                let (east, north) = STEP[eighths.rem_euclid(8) as usize];
+                (*x, *y) = (*x + east, *y + north);
+                assert!(is_free(&rows, *x, *y), "({x}, {y}): {one} in\n{drawing}");
+            };
+            let steps = one["half_cells"].as_i64().or(one["cells"].as_i64());
+            if let Some(steps) = steps {
+                assert_eq!(one["move"] == "diagonal", eighths % 2 == 1, "{one}");
+                (0..steps).for_each(|_| go(&mut x, &mut y, eighths));
+                continue;
+            }
+            let side = if one["side"] == "left" { 1 } else { -1 };
+            let kind = one["move"].as_str().unwrap();
+            let turns = angles(kind, eighths % 2 == 1);
+            go(&mut x, &mut y, eighths);
+            for turn in turns {
+                eighths = (eighths + side * turn).rem_euclid(8);
+                go(&mut x, &mut y, eighths);
+            }
+        }
+        assert_eq!(total, number(&line["run_ms"]), "{line}");
+        let (column, row) = ((2 * x) as usize, rows.len() - 1 - y as usize);
+        assert_eq!(
+            rows[row][column], 'G',
+            "the run ends in a goal: {line}\n{drawing}"
+        );
+        moves.len()
+    }
+}
+
+#[test]
+fn six_thousand_moves_are_replayed_without_a_doubt() {
+    let folder = folder("race-replayed");
+    std::fs::create_dir(folder.join("mazes")).unwrap();
+    let mut drawings = std::collections::BTreeMap::new();
+    for seed in 0..150_u32 {
+        let (family, size) = [
+            ("braided", "16x16"),
+            ("rooms", "16x16"),
+            ("perfect", "12x12"),
+        ][seed as usize % 3];
+        let seed = seed.to_string();
+        let call = ["maze", "generate", family, "--size", size, "--seed", &seed];
+        let name = format!("mazes/{seed}.maze");
+        let maze = tolman_in(&folder, &call).done();
+        std::fs::write(folder.join(&name), &maze).unwrap();
+        drawings.insert(name, maze);
+    }
+    let mut moves = 0;
+    for more in [&[][..], &["--no-diagonals"]] {
+        let call = [&["race", "mazes", "--json"], more].concat();
+        let told = tolman_in(&folder, &call).done();
+        for line in told.lines() {
+            let line: Value = serde_json::from_str(line).unwrap();
+            moves += replayed::check(&line, &drawings[line["maze"].as_str().unwrap()]);
+        }
+    }
+    assert!(moves >= 6000, "{moves}");
+}
+
+#[test]
+fn speeds_over_time_are_drawn_for_each_mouse() {
+    let folder = with_maze("race-speeds");
+    let template = tolman_in(&folder, &["race", "--template"]).done();
+    std::fs::write(folder.join("a.toml"), &template).unwrap();
+    let fast = template.replace("top_speed_mm_s = 1500.0", "top_speed_mm_s = 3000.0");
+    assert_ne!(fast, template);
+    std::fs::write(folder.join("b.toml"), fast).unwrap();
+    let call = [
+        "race", "a.maze", "--speeds", "s.svg", "--mouse", "a.toml", "--mouse", "b.toml",
+    ];
+    tolman_in(&folder, &call).done();
+    let svg = std::fs::read_to_string(folder.join("s.svg")).unwrap();
+    assert!(svg.starts_with("<svg ") && svg.contains("a.toml") && svg.contains("b.toml"));
+    // Two, each with its sample in the legend.
+    assert_eq!(svg.matches("class=\"line\"").count(), 4, "{svg}");
+    std::fs::create_dir(folder.join("two")).unwrap();
+    for name in ["two/a.maze", "two/b.maze"] {
+        std::fs::write(folder.join(name), MAZE).unwrap();
+    }
+    let told = tolman_in(&folder, &["race", "two", "--speeds", "t.svg"]);
+    assert_eq!(told.code, Some(2));
+    assert!(told.err.contains("two holds 2"), "{}", told.err);
+}
