@@ -5,6 +5,8 @@
     reason = "a test that cannot start its command has failed"
 )]
 
+extern crate alloc;
+
 mod arena;
 mod audit;
 #[cfg(target_os = "linux")]

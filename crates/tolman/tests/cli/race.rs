@@ -1,5 +1,7 @@
 //! The competition mouse.
 
+use alloc::collections::BTreeMap;
+
 use serde_json::Value;
 
 use crate::{folder, tolman_in};
@@ -334,7 +336,7 @@ mod replayed {
             ("F135", true) => &[2, 1],
             ("F180", _) => &[1, 2, 1],
             ("FV90" | "FS90", _) => &[2],
-            _ => panic!("{kind}"),
+            _ => unreachable!("{kind}"),
         }
     }
 
@@ -392,7 +394,7 @@ mod replayed {
 fn six_thousand_moves_are_replayed_without_a_doubt() {
     let folder = folder("race-replayed");
     std::fs::create_dir(folder.join("mazes")).unwrap();
-    let mut drawings = std::collections::BTreeMap::new();
+    let mut drawings = BTreeMap::new();
     for seed in 0..150_u32 {
         let (family, size) = [
             ("braided", "16x16"),
