@@ -67,7 +67,7 @@ fn examples() -> Result<Outcome> {
     let cpp = |out: &[&str]| {
         let mut cpp = Command::new("c++");
         cpp.current_dir(root().join(FOLDER));
-        cpp.args("-Wall -Wextra -Werror -O2 -Iinclude".split(' '))
+        cpp.args("-Wall -Wextra -Werror -O2 -I include".split(' '))
             .args(out);
         cpp
     };
