@@ -255,7 +255,7 @@ def yaw(turn):
 
 def main():
     words = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    words.add_argument("--node", required=True)
+    words.add_argument("node", help="the program tolman-ros2")
     words.add_argument("--tolman", required=True)
     words.add_argument("--system", default="mslst-better")
     words.add_argument("--noise", default="real", choices=turtle.NOISE)

@@ -9,6 +9,7 @@ use serde_json::Value;
 
 use crate::ci::Outcome;
 use crate::mujoco::{self, Choice, Noise};
+use crate::python::Environment;
 use crate::workspace::{cargo, root, succeed, target_folder};
 
 /// Manifest of the node.
@@ -16,6 +17,9 @@ const MANIFEST: &str = "crates/ros2/Cargo.toml";
 
 /// The loop that plays mazes.
 const LOOP: &str = "xtask/ros2/closed_loop.py";
+
+/// Checks that the node says which topics do not fit.
+const MISFITS: &str = "xtask/ros2/misfits.py";
 
 /// Least share of right maps, of ways home and of goals reached, in a step of `ci`.
 const ENOUGH: f64 = 0.9;
@@ -70,6 +74,9 @@ pub(crate) fn check() -> Result<Outcome> {
         Ok(runs) => runs,
         Err(missing) => return Ok(missing),
     };
+    if let Some((environment, _)) = mujoco::made()? {
+        succeed(&mut beside_the_node(&environment, MISFITS)?)?;
+    }
     for what in COUNTED {
         let (good, all) = (count(&runs, what), runs.len());
         ensure!(good as f64 >= ENOUGH * all as f64, "{good} of {all} {what}");
@@ -89,11 +96,17 @@ fn play(choice: &Choice) -> Result<Result<Vec<Value>, Outcome>> {
         return missing("there is no Python with pip to install MuJoCo with");
     };
     succeed(here("build --locked --quiet --target-dir").arg(target_folder()?))?;
+    let mut command = beside_the_node(&environment, LOOP)?;
+    Ok(Ok(mujoco::lines(&mut command, choice, &tolman)?))
+}
+
+/// Returns a program in Python that is told where the node is.
+fn beside_the_node(environment: &Environment, program: &str) -> Result<Command> {
     let mut command = alone("exec \"$@\"");
     command.arg(environment.python().get_program());
-    command.arg(root().join(LOOP)).arg("--node");
+    command.arg(root().join(program));
     command.arg(target_folder()?.join("debug/tolman-ros2"));
-    Ok(Ok(mujoco::lines(&mut command, choice, &tolman)?))
+    Ok(command)
 }
 
 /// Returns a shell that runs `script` in a network of its own; arguments follow.

@@ -22,7 +22,7 @@ use crate::messages::{
 use crate::mounts::{Mount, Mounts};
 use crate::navigation::Navigation;
 use crate::params::{Params, RosArguments};
-use crate::watch::Watch;
+use crate::watch::{Watch, Watched};
 
 /// All that the node hears and says over ROS 2.
 pub(crate) struct Link {
@@ -450,20 +450,21 @@ fn unsent<E>(topic: &str, _: &E) -> LinkError {
 struct Joining<'a> {
     node: Node,
     arguments: &'a RosArguments,
-    /// DDS name and type of each topic.
-    topics: Vec<(String, String)>,
+    topics: Vec<Watched>,
 }
 
 impl Joining<'_> {
-    fn topic(&mut self, name: &str, of: &str, qos: &QosProfile) -> Result<Topic> {
+    /// Returns a topic, and the DDS names by which it is watched.
+    fn topic(&mut self, name: &str, of: &str, qos: &QosProfile) -> Result<(Topic, [String; 2])> {
         let name = self.arguments.renamed(name);
         let invalid = || format!("{name} is no name of a topic");
         let parsed = Name::parse(name).with_context(invalid)?;
         let (package, kind) = of.split_once('/').unwrap_or(("", of));
         let kind = MessageTypeName::new(package, kind);
-        self.topics.push((format!("rt{name}"), kind.dds_msg_type()));
+        let names = [format!("rt{name}"), kind.dds_msg_type()];
         let topic = self.node.create_topic(&parsed, kind, qos);
-        topic.with_context(|| format!("cannot make the topic {name}"))
+        let topic = topic.with_context(|| format!("cannot make the topic {name}"))?;
+        Ok((topic, names))
     }
 
     fn hear<M: 'static>(
@@ -472,9 +473,16 @@ impl Joining<'_> {
         of: &str,
         qos: &QosProfile,
     ) -> Result<Subscription<M>> {
-        let topic = self.topic(name, of, qos)?;
+        let (topic, [dds_name, of]) = self.topic(name, of, qos)?;
         let made = self.node.create_subscription(&topic, Some(qos.clone()));
-        made.with_context(|| format!("cannot hear {name}"))
+        let made = made.with_context(|| format!("cannot hear {name}"))?;
+        let end = made.guid();
+        self.topics.push(Watched {
+            name: dds_name,
+            of,
+            end,
+        });
+        Ok(made)
     }
 
     fn publish<M: serde::Serialize>(
@@ -483,9 +491,16 @@ impl Joining<'_> {
         of: &str,
         qos: &QosProfile,
     ) -> Result<Publisher<M>> {
-        let topic = self.topic(name, of, qos)?;
+        let (topic, [dds_name, of]) = self.topic(name, of, qos)?;
         let made = self.node.create_publisher(&topic, Some(qos.clone()));
-        made.with_context(|| format!("cannot publish {name}"))
+        let made = made.with_context(|| format!("cannot publish {name}"))?;
+        let end = made.guid();
+        self.topics.push(Watched {
+            name: dds_name,
+            of,
+            end,
+        });
+        Ok(made)
     }
 
     fn serve(&mut self, name: &str) -> Result<Server<TriggerRequest, TriggerResponse>> {

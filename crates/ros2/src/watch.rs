@@ -1,24 +1,31 @@
 use std::collections::BTreeSet;
 
+use ros2_client::dds::rustdds::policy::{Durability, Reliability};
 use ros2_client::dds::rustdds::{
-    DomainParticipantStatusListener, StatusEvented, dds::statusevents::DomainParticipantStatusEvent,
+    DomainParticipantStatusEvent, DomainParticipantStatusListener, GUID, QosPolicies, StatusEvented,
 };
 
 /// Notices what DDS discovers and ROS does not say: topics of our names with another type, and
 /// writers and readers whose quality of service does not fit ours.
 pub(crate) struct Watch {
     events: DomainParticipantStatusListener,
-    /// DDS name and type of each of the node's topics.
-    topics: Vec<(String, String)>,
+    topics: Vec<Watched>,
     told: BTreeSet<String>,
 }
 
+/// A topic of the node.
+pub(crate) struct Watched {
+    /// DDS name of the topic.
+    pub(crate) name: String,
+    /// DDS name of the type of its messages.
+    pub(crate) of: String,
+    /// The node's end of it.
+    pub(crate) end: GUID,
+}
+
 impl Watch {
-    /// Returns a watch over topics with these DDS names and types.
-    pub(crate) fn new(
-        events: DomainParticipantStatusListener,
-        topics: Vec<(String, String)>,
-    ) -> Self {
+    /// Returns a watch over these topics.
+    pub(crate) fn new(events: DomainParticipantStatusListener, topics: Vec<Watched>) -> Self {
         Self {
             events,
             topics,
@@ -46,31 +53,54 @@ impl Watch {
                 self.other_type(&end.topic_name, &end.type_name)
             }
             Event::RemoteWriterQosIncompatible {
-                requested_qos,
-                offered_qos,
+                local_reader: end,
+                requested_qos: wanted,
+                offered_qos: offered,
                 ..
-            } => Some(format!(
-                "a topic's quality of service does not fit: the node asks for {requested_qos:?}, and is offered {offered_qos:?}"
-            )),
-            Event::RemoteReaderQosIncompatible {
-                requested_qos,
-                offered_qos,
+            }
+            | Event::RemoteReaderQosIncompatible {
+                local_writer: end,
+                requested_qos: wanted,
+                offered_qos: offered,
                 ..
-            } => Some(format!(
-                "a topic's quality of service does not fit: the node offers {offered_qos:?}, and is asked for {requested_qos:?}"
-            )),
+            } => {
+                let topic = self.topics.iter().find(|topic| topic.end == *end);
+                let topic = topic.map_or("a service", |topic| ros_name(&topic.name));
+                let [wanted, offered] = [wanted, offered].map(|qos| quality(qos));
+                Some(format!(
+                    "{topic} does not get through: one side asks for {wanted}, and the other offers {offered}"
+                ))
+            }
             _ => None,
         }
     }
 
     fn other_type(&self, name: &str, given: &str) -> Option<String> {
-        let (_, ours) = self.topics.iter().find(|(topic, _)| topic == name)?;
-        (ours != given).then(|| {
-            let topic = name.trim_start_matches("rt");
-            let [given, ours] = [given, ours.as_str()].map(readable);
+        let ours = self.topics.iter().find(|topic| topic.name == name)?;
+        (ours.of != given).then(|| {
+            let topic = ros_name(name);
+            let [given, ours] = [given, ours.of.as_str()].map(readable);
             format!("{topic} has messages of type {given}, and this node's are {ours}: nothing arrives{}", hint(&given))
         })
     }
+}
+
+/// Returns a DDS topic's name in ROS.
+fn ros_name(topic: &str) -> &str {
+    topic.trim_start_matches("rt")
+}
+
+/// Returns what of a quality of service keeps ends apart: `reliable and transient local`.
+fn quality(qos: &QosPolicies) -> String {
+    let reliability = match qos.reliability() {
+        Some(Reliability::Reliable { .. }) => "reliable",
+        _ => "best effort",
+    };
+    let durability = match qos.durability() {
+        Some(Durability::Volatile) | None => "volatile",
+        Some(_) => "transient local",
+    };
+    format!("{reliability} and {durability} messages")
 }
 
 /// Returns a DDS type as ROS names it: `geometry_msgs/msg/Twist`.
