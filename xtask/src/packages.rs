@@ -5,10 +5,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use serde_json::Value;
 
-use crate::workspace::{cargo, metadata, read, root, succeed, target_folder};
+use crate::workspace::{cargo, metadata, read, root, rust_files, succeed, target_folder};
 
 /// The package that is packed with every change: it depends on no other package, and its tests take
 /// seconds.
@@ -18,6 +18,8 @@ const ONE: &str = "tolman-stats";
 pub(crate) struct Package {
     pub(crate) name: String,
     pub(crate) version: String,
+    /// Folder of the package in the workspace.
+    folder: PathBuf,
     /// Names of the packages that it needs, to be built or to be tested.
     needs: Vec<String>,
 }
@@ -31,6 +33,9 @@ impl Package {
         Some(Self {
             name: member["name"].as_str()?.to_owned(),
             version: member["version"].as_str()?.to_owned(),
+            folder: Path::new(member["manifest_path"].as_str()?)
+                .parent()?
+                .to_owned(),
             needs: needs.map(str::to_owned).collect(),
         })
     }
@@ -41,15 +46,43 @@ impl Package {
     }
 }
 
-/// Packs one package, and tests it.
+/// Packs one package, and tests it. Of the others only looks that they include no file from outside
+/// of their folder, which would not be packed.
 ///
 /// # Errors
 /// As [`all`].
 pub(crate) fn one() -> Result<()> {
     let mut packages = published()?;
+    for Package { name, folder, .. } in &packages {
+        if let Some((file, path)) = included_from_outside(folder)? {
+            bail!(
+                "{} includes {path}, which is not packed with {name}: include it from the package's own folder",
+                file.display()
+            );
+        }
+    }
     packages.retain(|package| package.name == ONE);
     let folder = unpacked("package", &packages)?;
     succeed(&mut inside(&folder, "test --quiet --all-features")?)
+}
+
+/// Returns the first source file of a package that includes a file from outside of its folder, with
+/// the path that it gives; `None` if there is none.
+fn included_from_outside(package: &Path) -> Result<Option<(PathBuf, String)>> {
+    for file in rust_files(package)? {
+        let text = read(&file)?;
+        let included = ["include_str!(\"", "include_bytes!(\""];
+        let paths = included
+            .iter()
+            .flat_map(|macro_| text.split(macro_).skip(1));
+        let depth = file.strip_prefix(package)?.components().count() - 1;
+        let paths = paths.filter_map(|rest| rest.split('"').next());
+        let up = |path: &str| path.split('/').take_while(|part| *part == "..").count();
+        if let Some(path) = paths.into_iter().find(|path| up(path) > depth) {
+            return Ok(Some((file.clone(), path.to_owned())));
+        }
+    }
+    Ok(None)
 }
 
 /// Packs all packages, builds each by itself and tests them together.

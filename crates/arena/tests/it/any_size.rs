@@ -14,7 +14,7 @@ use tolman_robot::{
 };
 use tolman_sim::robots::LaserPioneer;
 
-const FORKS: &str = include_str!("../../../../mazes/forks.maze");
+const FORKS: &str = include_str!("../../mazes/forks.maze");
 
 /// A simulated robot, of which the test sees the path. All lengths that it senses are `size` times
 /// as large: so are its world and its body.

@@ -14,7 +14,7 @@ use tolman_arena::registry::Registry;
 use tolman_robot::{LaserMeasures, Robot, RobotMeasures, SensesLandmarks, Standing, TurnTranslate};
 use tolman_sim::robots::LaserPioneer;
 
-const FORKS: &str = include_str!("../../../../mazes/forks.maze");
+const FORKS: &str = include_str!("../../mazes/forks.maze");
 
 /// Output of a brain, which the test reads afterwards.
 #[derive(Clone, Default)]

@@ -15,7 +15,7 @@ use tolman_robot::{
 use tolman_sim::robots::LaserPioneer;
 use tolman_systems::AnyOnRobot;
 
-const FORKS: &str = include_str!("../../../../mazes/forks.maze");
+const FORKS: &str = include_str!("../../mazes/forks.maze");
 
 /// A compass: the heading that it gives in a time step for a true one.
 type Told = fn(Heading, u32) -> Option<Heading>;

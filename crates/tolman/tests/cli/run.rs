@@ -116,7 +116,7 @@ fn a_start_that_leads_nowhere_is_bad_input() {
         ("-3,1", "no way leads from"),
         ("1.5,0.1", "does not fit"),
     ] {
-        let maze = include_str!("../../../../mazes/j.maze");
+        let maze = include_str!("../../mazes/j.maze");
         let run = ["run", "avoid", "--maze", "-", "--start", start];
         tolman_fed(maze, &run).refused(2, &[part]);
     }
