@@ -61,7 +61,7 @@ impl Navigation {
     /// Takes in goals, cancellations and questions for results.
     pub(crate) fn attend(&mut self) {
         while let Ok(Some((request, sent))) = self.server.receive_goal() {
-            self.end(GoalStatusEnum::Aborted, "another goal came");
+            self.end_last(GoalStatusEnum::Aborted, "another goal came");
             let accepted = Time::now();
             self.goals.push(Goal {
                 id: sent.goal_id,
@@ -105,10 +105,12 @@ impl Navigation {
         self.answer();
     }
 
-    /// Returns the goal that has come since the last call; `None` if none has.
+    /// Returns the goal that has come since the last call; `None` if none has, or if it was
+    /// cancelled since.
     pub(crate) fn new_goal(&mut self) -> Option<Pose> {
-        let goal = self.goals.last_mut().filter(|goal| goal.is_pursued())?;
-        core::mem::take(&mut goal.is_new).then_some(goal.pose)
+        let goal = self.goals.last_mut()?;
+        let is_new = core::mem::take(&mut goal.is_new);
+        (is_new && goal.status == GoalStatusEnum::Executing).then_some(goal.pose)
     }
 
     /// Returns whether the pursued goal is to be given up, for a new one or for none.
@@ -124,8 +126,16 @@ impl Navigation {
         }
     }
 
-    /// Ends the pursued goal with `status`, or as cancelled if it is to be, and tells why.
+    /// Ends the pursued goal with `status`, or as cancelled if it is to be, and tells why. A goal
+    /// that nobody has taken up yet stays.
     pub(crate) fn end(&mut self, status: GoalStatusEnum, why: &str) {
+        if self.goals.last().is_some_and(|goal| !goal.is_new) {
+            self.end_last(status, why);
+        }
+    }
+
+    /// Ends the last goal, taken up or not.
+    fn end_last(&mut self, status: GoalStatusEnum, why: &str) {
         let Some(goal) = self.goals.last_mut() else {
             return;
         };

@@ -7,13 +7,12 @@ use anyhow::{Context as _, Result, anyhow};
 use ros2_client::RmwRequestId;
 use ros2_client::action::GoalStatusEnum;
 use serde_json::{Value, json};
-use tolman_arena::foreign::Told;
+use tolman_arena::foreign::{NamedTask, Told};
 use tolman_arena::registry::{SystemEntry, SystemFacts};
 use tolman_geom::{Heading, Point, Pose};
 use tolman_papers::real::ros_map;
 use tolman_robot::{
-    Goal, Landmark, LaserMeasures, Position, RobotMeasures, RoverConfig, Standing, Task,
-    VelocityRover,
+    Goal, LaserMeasures, Position, RobotMeasures, RoverConfig, Standing, Task, VelocityRover,
 };
 use tolman_systems::AnyOnRobot;
 
@@ -42,9 +41,8 @@ pub(crate) struct Pilot {
 /// What the robot is doing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Errand {
-    Explore,
-    ReachGoal,
-    Localize,
+    /// What a service asked for.
+    Asked(NamedTask),
     /// To a place or a point of the map, for a client of the action.
     Navigate(Goal),
 }
@@ -94,7 +92,9 @@ impl Pilot {
             system,
             sightings,
             laser: Pose::new(mount.robot_from_laser.position, Heading::from_radians(0.0)),
-            errand: params.explore_on_start.then_some(Errand::Explore),
+            errand: params
+                .explore_on_start
+                .then_some(Errand::Asked(NamedTask::Explore)),
             standing: Standing::UnderWay,
             actions: 0,
             drawn: None,
@@ -134,13 +134,14 @@ impl Pilot {
     }
 
     fn obey(&mut self, (asked, id): (Asked, RmwRequestId)) {
-        let begin = |errand: Errand, word: &str| {
-            (Some(errand), format!("{word}; ~/state tells when it ends"))
+        let begin = |task: NamedTask, word: &str| {
+            let word = format!("{word}; ~/state tells when it ends");
+            (Some(Errand::Asked(task)), word)
         };
         let (errand, word) = match asked {
-            Asked::Explore => begin(Errand::Explore, "exploring"),
-            Asked::ReachGoal => begin(Errand::ReachGoal, "on the way to the goal"),
-            Asked::Localize => begin(Errand::Localize, "finding its place"),
+            Asked::Explore => begin(NamedTask::Explore, "exploring"),
+            Asked::ReachGoal => begin(NamedTask::ReachGoal, "on the way to the goal"),
+            Asked::Localize => begin(NamedTask::Localize, "finding its place"),
             Asked::Stop => (None, "stopped".to_owned()),
             Asked::PutDown => {
                 self.system.put_down();
@@ -346,18 +347,14 @@ impl Pilot {
 impl Errand {
     const fn task(self) -> Task {
         match self {
-            Self::Explore => Task::Explore,
-            Self::ReachGoal => Task::Reach(Goal::Landmark(Landmark::Goal)),
-            Self::Localize => Task::Localize,
+            Self::Asked(task) => task.task(),
             Self::Navigate(goal) => Task::Reach(goal),
         }
     }
 
     const fn name(self) -> &'static str {
         match self {
-            Self::Explore => "explore",
-            Self::ReachGoal => "reach-goal",
-            Self::Localize => "localize",
+            Self::Asked(task) => task.name(),
             Self::Navigate(_) => "navigate",
         }
     }
