@@ -9,7 +9,7 @@
 //! A world chooses one of the first two itself, unless the program [chose](CasterChoice) the third,
 //! which shares no code with them. If you write a caster, or doubt a range in a world of your own,
 //! you can compare the two. So the feature `parry2d` is on by default. Without it the simulator
-//! computes the same bits, builds 14 crates fewer, and `ParryPolyline` does not exist.
+//! computes the same bits, builds 13 crates fewer, and `ParryPolyline` does not exist.
 //!
 //! **What touching means.** A wall is a closed segment, so a ray into the joint of two walls never
 //! leaks. A ray that passes the free end of a wall within rounding (10⁻⁹ m) may read the end or

@@ -38,9 +38,6 @@ pub enum CasterChoiceError {
 static CHOSEN: OnceLock<CasterChoice> = OnceLock::new();
 
 impl CasterChoice {
-    /// All casters, the usual one first.
-    pub const ALL: [Self; 2] = [Self::BuiltIn, Self::Parry2d];
-
     /// Returns the name, as on the command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
