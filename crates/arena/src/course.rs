@@ -16,12 +16,13 @@ use thiserror::Error;
 use tolman_control::heading_of;
 use tolman_geom::{Heading, Point, Pose, Vector};
 use tolman_maze::{Cell, Direction, Maze, MazeFile};
-use tolman_robot::Body;
+use tolman_robot::{Body, Landmark};
 use tolman_sim::{CorridorSize, Model, PlaceError, World, WorldError, WorldFileError, Zone};
 use tolman_systems::stream;
 
 use self::paving::Paving;
 use crate::pioneer::CORRIDOR_WIDTH;
+use crate::simulated::landmark_of;
 use crate::{Simulated, taut_way};
 
 pub use terrain::{FreeWorld, Terrain};
@@ -308,6 +309,13 @@ impl Course {
     #[must_use]
     pub fn destination(&self) -> Option<&Zone> {
         self.world.zone("destination")
+    }
+
+    /// Returns the zone in which a landmark is sensed; `None` if the course does not have it.
+    #[must_use]
+    pub fn zone_of(&self, landmark: Landmark) -> Option<&Zone> {
+        let mut zones = self.world.zones().iter();
+        zones.find(|zone| landmark_of(zone) == Some(landmark))
     }
 
     /// Returns whether a position lies in the destination.

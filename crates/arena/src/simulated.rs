@@ -7,8 +7,8 @@ use tolman_sim::{DoorError, DoorState, Model, PlaceError, Solo, StepError, Truth
 
 use crate::{BoxError, Depicted};
 
-/// A simulated robot that senses the zones `start` and `destination` of its world as landmarks, and
-/// leaves a path.
+/// A simulated robot that senses the zones `start`, `destination` and `landmark 1` to `landmark 8`
+/// of its world as landmarks, and leaves a path.
 #[derive(Debug)]
 pub struct Simulated<M: Model> {
     solo: Solo<M>,
@@ -26,11 +26,9 @@ impl<M: Model> Simulated<M> {
     /// # Errors
     /// If it cannot stand there.
     pub fn new(world: Arc<World>, robot: M, start: Pose, seed: u64) -> Result<Self, PlaceError> {
-        let names = [(Landmark::Start, "start"), (Landmark::Goal, "destination")];
-        let zones = names.into_iter();
-        let zones =
-            zones.filter_map(|(landmark, name)| Some((landmark, world.zone(name)?.clone())));
-        let landmarks = zones.collect();
+        let zones = world.zones().iter();
+        let landmarks = zones.filter_map(|zone| Some((landmark_of(zone)?, zone.clone())));
+        let landmarks = landmarks.collect();
         Ok(Self {
             solo: Solo::new(world, robot, start, seed)?,
             seed,
@@ -116,6 +114,18 @@ impl<M: Depicted> Simulated<M> {
         let world = Arc::clone(self.solo.simulation().world());
         let model = self.model().again()?;
         trace_of(world, model, self.path[0], self.seed, &self.commands)
+    }
+}
+
+/// Returns the landmark that is sensed in a zone; `None` if there is none.
+pub(crate) fn landmark_of(zone: &Zone) -> Option<Landmark> {
+    match zone.name() {
+        "start" => Some(Landmark::Start),
+        "destination" => Some(Landmark::Goal),
+        name => {
+            let number = name.strip_prefix("landmark ")?.parse().ok()?;
+            Some(Landmark::Numbered(number))
+        }
     }
 }
 

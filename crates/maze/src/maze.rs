@@ -1,6 +1,8 @@
+use alloc::collections::BTreeMap;
 use alloc::vec;
 use alloc::vec::Vec;
 use core::fmt;
+use core::ops::RangeInclusive;
 
 use crate::{Cell, CheckError, Direction, Grid, Wall, formats};
 
@@ -17,7 +19,8 @@ use crate::{Cell, CheckError, Direction, Grid, Wall, formats};
 /// assert!(!maze.is_open(Cell::new(0, 0), Direction::North), "the border is closed");
 /// ```
 ///
-/// It displays as a drawing, north first, with `S` on the start and `G` on the goals:
+/// It displays as a drawing, north first, with `S` on the start, `G` on the goals, and landmarks by
+/// their numbers:
 ///
 /// ```
 /// use tolman_maze::{Cell, Direction, Grid, Maze};
@@ -43,9 +46,14 @@ pub struct Maze {
     standing: Vec<u64>,
     start: Option<(Cell, Direction)>,
     goals: Vec<Cell>,
+    /// Number of the landmark of each cell that has one.
+    landmarks: BTreeMap<Cell, u32>,
 }
 
 impl Maze {
+    /// Numbers of the landmarks that a drawing can mark.
+    pub const LANDMARKS: RangeInclusive<u32> = 1..=8;
+
     /// Returns a maze without inner walls and with a closed border; no start, no goal.
     #[must_use]
     pub fn open(grid: Grid) -> Self {
@@ -54,6 +62,7 @@ impl Maze {
             standing: vec![0; grid.wall_count().div_ceil(64)],
             start: None,
             goals: Vec::new(),
+            landmarks: BTreeMap::new(),
         };
         for (cell, direction) in grid.border() {
             maze.set_wall(cell, direction, true);
@@ -236,7 +245,9 @@ impl Maze {
         moved.start = self
             .start
             .map(|(cell, heading)| (place(cell), turn(heading)));
-        moved.set_goals(self.goals.iter().copied().map(place).collect());
+        moved.set_goals(self.goals.iter().copied().map(&place).collect());
+        let landmarks = self.landmarks.iter();
+        moved.landmarks = landmarks.map(|(cell, n)| (place(*cell), *n)).collect();
         moved
     }
 
@@ -262,6 +273,18 @@ impl Maze {
         goals.sort_unstable();
         goals.dedup();
         self.goals = goals;
+    }
+
+    /// Returns the cells of numbered landmarks, which errands name, with their numbers; may be
+    /// empty. A landmark may have several cells.
+    #[must_use]
+    pub const fn landmarks(&self) -> &BTreeMap<Cell, u32> {
+        &self.landmarks
+    }
+
+    /// Sets the cells of numbered landmarks.
+    pub fn set_landmarks(&mut self, landmarks: BTreeMap<Cell, u32>) {
+        self.landmarks = landmarks;
     }
 
     /// Returns, for every cell by [`Grid::index`], the number of steps to the nearest goal, or
@@ -353,7 +376,8 @@ impl Maze {
                 grid: self.grid,
             });
         }
-        match self.goals.iter().find(|goal| !self.grid.contains(**goal)) {
+        let mut marked = self.goals.iter().chain(self.landmarks.keys());
+        match marked.find(|goal| !self.grid.contains(**goal)) {
             Some(goal) => Err(CheckError::GoalOutside {
                 goal: *goal,
                 grid: self.grid,

@@ -102,7 +102,7 @@ struct Cells {
 
 impl World {
     /// Returns a maze drawn to scale. Its goal cells become the zone `destination`, its start cell
-    /// the zone `start`, if the maze marks them.
+    /// the zone `start`, and those of landmark 1 the zone `landmark 1`, if the maze marks them.
     ///
     /// Walls that continue each other in a straight line become one [`WallSegment`]. Thick walls
     /// have an outline, and a post of their thickness wherever one ends.
@@ -134,6 +134,14 @@ impl World {
         }
         if !maze.goals().is_empty() {
             world = world.with_zone(Zone::of_cells("destination", maze.goals(), pitch))?;
+        }
+        for number in Maze::LANDMARKS {
+            let cells = maze.landmarks().iter().filter(|(_, of)| **of == number);
+            let cells: Vec<Cell> = cells.map(|(cell, _)| *cell).collect();
+            if !cells.is_empty() {
+                let name = format!("landmark {number}");
+                world = world.with_zone(Zone::of_cells(&name, &cells, pitch))?;
+            }
         }
         Ok(world)
     }

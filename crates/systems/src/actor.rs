@@ -2,7 +2,7 @@ use core::ops::ControlFlow;
 
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
-use tolman_control::{Drive, Driven, Stack};
+use tolman_control::{Drive, Driven, Outcome, Stack};
 use tolman_robot::{
     Compass, Fitted, Goal, Guess, MapView, Mapper, Ranges, Ring, Robot, RobotMeasures,
     SensesLandmarks, Standing, System, Task, TurnTranslate, VisitNaming,
@@ -16,7 +16,7 @@ use crate::{Brain, Doing, ForRobotError, LaserRobot, OfStep, OnRobot, stream};
 /// ranges, its heading and landmarks.
 ///
 /// An action of the [`System`] is one of the brain's. It ends early if the robot senses its target
-/// landmark.
+/// landmark; to the brain it then was carried out.
 #[derive(Debug)]
 pub struct Actor<B> {
     brain: B,
@@ -179,18 +179,22 @@ impl<B: Brain> Actor<B> {
         let mut observed = Ok(());
         let outcome = drive.carry_out(robot, action, |step| {
             see(brain, step);
-            observed = brain.observe(&OfStep::of_step(step.robot, Doing::of(step)));
-            if observed.is_err() || has_arrived(step.robot, task) {
-                return ControlFlow::Break(());
+            let doing = match has_arrived(step.robot, task) {
+                true => Doing::Ended(action, Outcome::Completed),
+                false => Doing::of(step),
+            };
+            observed = brain.observe(&OfStep::of_step(step.robot, doing));
+            match observed.is_err() || has_arrived(step.robot, task) {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
             }
-            ControlFlow::Continue(())
         });
         let outcome = outcome.map_err(ActorError::Robot)?;
         observed.map_err(ActorError::Brain)?;
+        self.before = Before::Action;
         if outcome.is_none() {
             return Ok(Standing::Done);
         }
-        self.before = Before::Action;
         Ok(self.brain.standing(task))
     }
 }

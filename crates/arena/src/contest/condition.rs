@@ -39,6 +39,9 @@ pub enum Condition {
     /// Ranges, odometry and heading are as good as those of real robots. The heading is that of a
     /// gyro, which drifts.
     RealSensors,
+    /// Doors shut and open again while the robot runs [errands](super::Errands). Not among
+    /// [`ALL`](Self::ALL): other tasks have no such doors.
+    MovingDoors,
     /// Motors, wheels, compass and odometry have no errors, as on no real robot. A map learned in
     /// this way can serve as the true one. Not among [`ALL`](Self::ALL).
     Flawless,
@@ -62,6 +65,9 @@ const ROLLED: f64 = 0.01;
 const TURNED: f64 = 0.03;
 /// Drift of the gyro, rad/min.
 const DRIFT: f64 = PI / 180.0;
+
+/// Maximum number of doors that shut and open.
+const MOVING_DOORS: usize = 6;
 
 const WHEEL_STREAM: u64 = 32;
 const DOOR_STREAM: u64 = 33;
@@ -95,6 +101,7 @@ impl Condition {
             Self::Kidnapping => "kidnapping",
             Self::DropOuts => "drop-outs",
             Self::RealSensors => "real sensors",
+            Self::MovingDoors => "moving doors",
             Self::Flawless => "flawless",
         };
         name.to_owned()
@@ -104,7 +111,7 @@ impl Condition {
     /// offset. `None` if there is none.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
-        let mut all = Self::ALL.into_iter();
+        let mut all = Self::ALL.into_iter().chain([Self::MovingDoors]);
         all.find(|condition| slug(&condition.name()) == slug(name))
     }
 
@@ -119,6 +126,7 @@ impl Condition {
             Self::AsMade
             | Self::CompassOffset
             | Self::Doors
+            | Self::MovingDoors
             | Self::Kidnapping
             | Self::RealSensors => {}
         }
@@ -167,7 +175,7 @@ impl Condition {
                 robot = without_noise(&robot);
                 robot.wheel_scale = WheelScale::EXACT;
             }
-            Self::AsMade | Self::Doors | Self::Kidnapping => {}
+            Self::AsMade | Self::Doors | Self::MovingDoors | Self::Kidnapping => {}
         }
         robot
     }
@@ -195,6 +203,7 @@ impl Condition {
             Self::AsMade
             | Self::CompassOffset
             | Self::Doors
+            | Self::MovingDoors
             | Self::Kidnapping
             | Self::RealSensors => {}
         }
@@ -228,13 +237,15 @@ impl Condition {
         }
     }
 
-    /// Returns the opening that is a door, as a cell and the way out of it: a random opening
-    /// without which all cells stay connected. `None` if there is no such opening, or if this
-    /// condition has no door.
-    pub(crate) fn door(self, maze: &Maze, seed: u64) -> Option<(Cell, Direction)> {
-        if self != Self::Doors {
-            return None;
-        }
+    /// Returns the openings that are doors, each as a cell and the way out of it: random openings
+    /// without any one of which all cells stay connected. None if there are no such openings, or if
+    /// this condition has no doors.
+    pub(crate) fn doors(self, maze: &Maze, seed: u64) -> Vec<(Cell, Direction)> {
+        let most = match self {
+            Self::Doors => 1,
+            Self::MovingDoors => MOVING_DOORS,
+            _ => return Vec::new(),
+        };
         let count = maze.reachable().count();
         let openings = maze.reachable().flat_map(|cell| {
             let ways = [Direction::North, Direction::East].into_iter();
@@ -245,8 +256,16 @@ impl Condition {
             shut.set_wall(*cell, *way, true);
             maze.is_open(*cell, *way) && shut.reachable().count() == count
         };
-        let doors: Vec<(Cell, Direction)> = openings.filter(is_needless).collect();
-        pick(&doors, &mut stream(seed, DOOR_STREAM))
+        let mut left: Vec<(Cell, Direction)> = openings.filter(is_needless).collect();
+        let rng = &mut stream(seed, DOOR_STREAM);
+        let mut doors = Vec::new();
+        while doors.len() < most
+            && let Some(door) = pick(&left, rng)
+        {
+            left.retain(|other| *other != door);
+            doors.push(door);
+        }
+        doors
     }
 
     fn odometry(self) -> Fault {
@@ -257,31 +276,40 @@ impl Condition {
     }
 }
 
-/// Name of the door.
-pub(super) const DOOR: &str = "door";
+/// Returns the name of a door, by its number from 0.
+pub(super) fn door_name(number: usize) -> String {
+    match number {
+        0 => "door".to_owned(),
+        number => format!("door {}", number + 1),
+    }
+}
 
-/// Returns the course with a door, which stands open, in this opening.
+/// Returns the course with doors, which stand open, in these openings.
 ///
 /// # Errors
-/// If the world has a door of this name.
-pub(crate) fn with_door(
+/// If the world has a door of such a name.
+pub(crate) fn with_doors(
     mut course: Course,
-    (cell, way): (Cell, Direction),
+    openings: &[(Cell, Direction)],
 ) -> Result<Course, WorldError> {
-    let next = course.maze.grid().neighbour(cell, way).unwrap_or(cell);
-    let [here, there] = [cell, next].map(|cell| course.cell_centre(cell));
-    let middle = here + 0.5 * (there - here);
-    let half = unit_of(way.left()) * (0.5 * course.corridor_width);
-    let door = Door {
-        name: DOOR.to_owned(),
-        start: middle - half,
-        end: middle + half,
-        material: Material::default(),
-        state: DoorState::Open,
-        schedule: Vec::new(),
+    let door = |(number, (cell, way)): (usize, &(Cell, Direction))| {
+        let next = course.maze.grid().neighbour(*cell, *way).unwrap_or(*cell);
+        let [here, there] = [*cell, next].map(|cell| course.cell_centre(cell));
+        let middle = here + 0.5 * (there - here);
+        let half = unit_of(way.left()) * (0.5 * course.corridor_width);
+        Door {
+            name: door_name(number),
+            start: middle - half,
+            end: middle + half,
+            material: Material::default(),
+            state: DoorState::Open,
+            schedule: Vec::new(),
+        }
     };
-    let world = (*course.world).clone().with_door(door)?;
-    course.world = Arc::new(world);
+    if !openings.is_empty() {
+        let doors: Vec<Door> = openings.iter().enumerate().map(door).collect();
+        course.world = Arc::new((*course.world).clone().with_doors(doors)?);
+    }
     Ok(course)
 }
 
@@ -335,16 +363,20 @@ mod tests {
             let family = Family::ARENA[family];
             let rng = &mut ChaCha8Rng::seed_from_u64(seed);
             let maze = (family.draw)(family.sizes[0], rng).unwrap();
-            prop_assert_eq!(Condition::AsMade.door(&maze, seed), None);
-            match Condition::Doors.door(&maze, seed) {
-                Some((cell, way)) => {
-                    prop_assert!(maze.is_open(cell, way));
-                    let mut shut = maze.clone();
-                    shut.set_wall(cell, way, true);
-                    prop_assert!(shut.reachable().eq(maze.reachable()));
-                }
+            prop_assert!(Condition::AsMade.doors(&maze, seed).is_empty());
+            let doors = Condition::MovingDoors.doors(&maze, seed);
+            prop_assert!(doors.len() <= MOVING_DOORS);
+            prop_assert_eq!(&Condition::Doors.doors(&maze, seed)[..], &doors[..doors.len().min(1)]);
+            for (cell, way) in &doors {
+                prop_assert!(maze.is_open(*cell, *way));
+                let mut shut = maze.clone();
+                shut.set_wall(*cell, *way, true);
+                prop_assert!(shut.reachable().eq(maze.reachable()));
+            }
+            match doors.as_slice() {
+                [_, ..] => {}
                 // The maze has no loop.
-                None => {
+                [] => {
                     let ways: usize = maze.reachable().map(|cell| maze.degree(cell)).sum();
                     prop_assert_eq!(ways / 2 + 1, maze.reachable().count());
                 }

@@ -8,6 +8,7 @@
 
 mod claim;
 mod condition;
+mod errands;
 mod evidence;
 mod floor_graph;
 mod ideal;
@@ -25,7 +26,8 @@ mod whereabouts;
 
 pub use claim::Claim;
 pub use condition::Condition;
-pub(crate) use condition::with_door;
+pub(crate) use condition::with_doors;
+pub use errands::{Errands, ErrandsRecord, NoLandmarks};
 pub use evidence::{Evidence, TrueVisits};
 pub use judgement::MapJudgement;
 pub use play::{

@@ -8,7 +8,7 @@ use tolman_sim::DoorState;
 use tolman_systems::stream;
 
 use super::claim::Claim;
-use super::condition::{Condition, DOOR};
+use super::condition::{Condition, door_name};
 use super::evidence::{Evidence, TrueVisits};
 use super::ideal::IdealObserver;
 use super::judgement::MapJudgement;
@@ -355,7 +355,10 @@ impl Contest<'_> {
             condition: self.condition,
             schooling,
         };
-        let outing = self.contestant.learner(&setup);
+        let outing = match self.contestant.baseline() {
+            Some(_) => self.contestant.driver(&[], &setup),
+            None => self.contestant.learner(&setup),
+        };
         outing.map_err(|source| self.enter_error(source))
     }
 
@@ -391,15 +394,15 @@ impl Contest<'_> {
         starts.collect()
     }
 
-    /// Returns the opening that is a door; see [`Condition::Doors`].
-    fn door(&self) -> Option<(Cell, Direction)> {
-        self.condition.door(self.maze, self.seed)
+    /// Returns the openings that are doors; see [`Condition::Doors`].
+    pub(super) fn doors(&self) -> Vec<(Cell, Direction)> {
+        self.condition.doors(self.maze, self.seed)
     }
 
     /// Returns the drawing as it is after the robot has learned.
     pub(super) fn maze_afterwards(&self) -> Maze {
         let mut maze = self.maze.clone();
-        if let Some((cell, way)) = self.door() {
+        for (cell, way) in self.doors() {
             maze.set_wall(cell, way, true);
         }
         maze
@@ -506,7 +509,7 @@ impl Bout {
     pub(super) fn new(contest: &Contest<'_>, outing: Box<dyn Outing>) -> Self {
         Self {
             maze: contest.maze.clone(),
-            has_door: contest.door().is_some(),
+            has_door: !contest.doors().is_empty(),
             truth: TrueGraph::of(contest.maze, contest.contestant.facts().places),
             observer: contest.observer(outing.course()),
             claims: contest.contestant.facts().claims,
@@ -566,13 +569,17 @@ impl Bout {
         see(&*self.outing, before);
         let path = self.outing.path();
         let last = path.len() - 1;
-        let is_sent = matches!(pursuit.task, Task::Reach(_));
+        let goal = match pursuit.task {
+            Task::Reach(Goal::Landmark(landmark)) => self.outing.course().zone_of(landmark),
+            Task::Reach(Goal::Place(_) | Goal::Point(_)) => self.outing.course().destination(),
+            Task::Explore | Task::Localize => None,
+        };
         for at in pursuit.until..=last {
             let step = path.get(at.max(from + 1) - 1..=at).map_or(0.0, path_length);
             let is_lifted = pursuit.put.is_some_and(|(_, next)| next == at);
             let is_new = at > pursuit.until && !is_lifted;
             pursuit.driven += if is_new { step } else { 0.0 };
-            let is_there = is_sent && self.outing.course().is_destination(path[at].position);
+            let is_there = goal.is_some_and(|zone| zone.contains(path[at].position));
             let driven = pursuit.driven;
             pursuit.arrived = pursuit.arrived.or(is_there.then_some(driven));
         }
@@ -630,7 +637,7 @@ impl Bout {
     /// Shuts the door, if there is one.
     fn shut_door(&mut self) -> Result<(), BoxError> {
         match self.has_door {
-            true => self.outing.set_door(DOOR, DoorState::Shut),
+            true => self.outing.set_door(&door_name(0), DoorState::Shut),
             false => Ok(()),
         }
     }

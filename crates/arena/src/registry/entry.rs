@@ -42,6 +42,8 @@ pub struct SystemFacts {
     /// Puts it on any robot with a laser, by its measures alone; or the reason why it cannot be, in
     /// a sentence without a full stop.
     pub for_robot: Result<ForRobot, &'static str>,
+    /// Whether it runs errands: goes to any landmark, and looks for it while it is not on its map.
+    pub delivers: bool,
     /// Maps by which it drives to the goal.
     pub drives: DrivesBy,
     /// Whether being done means that it claims its map is that of the whole world.
@@ -76,6 +78,7 @@ impl SystemFacts {
             log_mapper: None,
             why_no_log: "it learns from actions, which a log does not name",
             for_robot: Err("it is not made for any robot with a laser"),
+            delivers: false,
             drives: DrivesBy::OwnMap,
             claims: true,
             tried: false,

@@ -10,7 +10,7 @@ use tolman_sim::robots::{LaserPioneerConfig, Pioneer2dx, Pioneer2dxConfig};
 use tolman_systems::Origin;
 
 use super::{LaserLike, MapText, RobotEntry, Schooling, Start};
-use crate::contest::{Condition, with_door};
+use crate::contest::{Condition, with_doors};
 use crate::course::{Course, Terrain};
 use crate::episode::{layers, random_start};
 use crate::run::Limited;
@@ -53,29 +53,26 @@ impl Setup<'_> {
         }
     }
 
-    /// Returns the course for a robot of this body, with the [door](Condition::Doors) of its
+    /// Returns the course for a robot of this body, with the [doors](Condition::Doors) of its
     /// condition. In a maze whose file gives no width, corridors are `usual_width` m wide.
     ///
     /// # Errors
     /// As [`Terrain::course`].
     pub fn course(&self, body: &Body, usual_width: f64) -> Result<Course, BoxError> {
         let course = self.terrain.course_with(self.world, body, usual_width)?;
-        self.with_door(course)
+        self.with_doors(course)
     }
 
-    /// Returns a course with the door of this condition, if there is one.
+    /// Returns a course with the doors of this condition, if there are any.
     ///
     /// # Errors
-    /// If the door does not fit the world.
-    pub fn with_door(&self, course: Course) -> Result<Course, BoxError> {
-        let door = match course.is_free() {
-            true => None,
-            false => self.condition.door(&course.maze, self.seed),
+    /// If a door does not fit the world.
+    pub fn with_doors(&self, course: Course) -> Result<Course, BoxError> {
+        let doors = match course.is_free() {
+            true => Vec::new(),
+            false => self.condition.doors(&course.maze, self.seed),
         };
-        match door {
-            Some(door) => Ok(with_door(course, door)?),
-            None => Ok(course),
-        }
+        Ok(with_doors(course, &doors)?)
     }
 
     /// Returns the start of the robot on `course`: the one that was given, or else the

@@ -11,6 +11,7 @@ mod contest;
 mod cpm;
 mod entry;
 mod episodes;
+mod errands;
 mod gngslam;
 mod laser_diktiometry;
 mod noisy_mouse;

@@ -106,7 +106,11 @@ impl Observer {
         self.map.place(place).is_open(action) && along.next().is_none()
     }
 
-    fn go_to_unknown(&self) -> Option<Opportunity> {
+    /// Returns the script to the nearest action that was never tried, however far that is; `None`
+    /// if every action was. O(places + links · degree), and a search for each place with untried
+    /// actions that may be another.
+    #[must_use]
+    pub fn go_to_unknown(&self) -> Option<Opportunity> {
         // From a place that may still be another one, known ground may be explored.
         let unknown = |place| !self.untried(place).is_empty();
         let certain = |place| unknown(place) && self.noted_doubles(place).is_empty();

@@ -20,6 +20,8 @@ pub struct ScanChart {
     links: Vec<[u32; 2]>,
     goal: Vec<Point>,
     start: Vec<Point>,
+    /// Positions where numbered landmarks were sensed.
+    numbered: Vec<(u32, Point)>,
     radius: f64,
     surprise: f64,
 }
@@ -42,6 +44,12 @@ pub struct ChartParts {
         serde(default, skip_serializing_if = "Vec::is_empty")
     )]
     pub start: Vec<Point>,
+    /// Positions where numbered landmarks were sensed, m, with their numbers.
+    #[cfg_attr(
+        feature = "serde",
+        serde(default, skip_serializing_if = "Vec::is_empty")
+    )]
+    pub numbered: Vec<(u32, Point)>,
     /// Contradiction between the map's walls, 0 … 1: see [`ScanMap::surprise`]. Older files lack
     /// it.
     #[cfg_attr(feature = "serde", serde(default))]
@@ -144,6 +152,7 @@ impl ScanChart {
             + size_of_val(self.links.as_slice())
             + size_of_val(self.goal.as_slice())
             + size_of_val(self.start.as_slice())
+            + size_of_val(self.numbered.as_slice())
             + self.ground.bytes()
     }
 
@@ -156,6 +165,7 @@ impl ScanChart {
             links: map.links().collect(),
             goal: map.goal().to_vec(),
             start: map.start().to_vec(),
+            numbered: map.numbered().collect(),
             radius: map.radius(),
             surprise: map.surprise(),
         }
@@ -170,6 +180,7 @@ impl ScanChart {
             links: self.links.clone(),
             goal: self.goal.clone(),
             start: self.start.clone(),
+            numbered: self.numbered.clone(),
             surprise: self.surprise,
             cell: WallGrid::CELL,
             first: self.ground.first(),
@@ -200,6 +211,7 @@ impl ScanChart {
         lie_somewhere("place", parts.places.iter().map(|place| place.position))?;
         lie_somewhere("goal", parts.goal.iter().copied())?;
         lie_somewhere("start", parts.start.iter().copied())?;
+        lie_somewhere("landmark", parts.numbered.iter().map(|(_, at)| *at))?;
         check_links(&parts.links, parts.places.len())?;
         Ok(Self {
             ground: GroundPlan::from_rows(parts.first, &parts.rows)?,
@@ -207,6 +219,7 @@ impl ScanChart {
             links: parts.links,
             goal: parts.goal,
             start: parts.start,
+            numbered: parts.numbered,
             radius,
             surprise,
         })
@@ -245,6 +258,12 @@ impl ScanChart {
     #[must_use]
     pub fn start(&self) -> &[Point] {
         &self.start
+    }
+
+    /// Returns the positions at which a numbered landmark was sensed, m.
+    pub fn spots_of(&self, number: u32) -> impl Iterator<Item = Point> + '_ {
+        let spots = self.numbered.iter().filter(move |(of, _)| *of == number);
+        spots.map(|(_, at)| *at)
     }
 
     /// Returns the standpoints of the robot on a grid of [its ground](GroundPlan::grid).

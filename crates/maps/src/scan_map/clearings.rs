@@ -12,6 +12,8 @@ use super::wall_grid::{GridIndex, around, index_of, middle};
 pub struct Clearings<'a> {
     grid: &'a WallGrid,
     radius: f64,
+    /// Whether ways lead over unknown ground, too.
+    hopeful: bool,
 }
 
 /// Distances over the ground to where a way leads, as far as they were computed.
@@ -31,7 +33,29 @@ const ASTRAY: u32 = 16;
 
 impl<'a> Clearings<'a> {
     pub(super) const fn new(grid: &'a WallGrid, radius: f64) -> Self {
-        Self { grid, radius }
+        let hopeful = false;
+        Self {
+            grid,
+            radius,
+            hopeful,
+        }
+    }
+
+    /// Returns the same ground, over which ways lead as if all that is unknown were floor: the
+    /// robot then drives by the shortest way that nothing on the map forbids, and learns on it
+    /// whether it is one (Stentz 1994, *Optimal and efficient path planning for partially-known
+    /// environments*).
+    #[must_use]
+    pub const fn hopeful(self) -> Self {
+        Self {
+            hopeful: true,
+            ..self
+        }
+    }
+
+    fn leads_over(&self, index: GridIndex) -> bool {
+        self.grid.stands(index, self.radius)
+            || (self.hopeful && self.grid.may_stand(index, self.radius))
     }
 
     pub(super) const fn grid(&self) -> &'a WallGrid {
@@ -68,6 +92,16 @@ impl<'a> Clearings<'a> {
     #[must_use]
     pub fn way_to(&self, from: Point, to: Point) -> Option<GroundWay<'_>> {
         let (starts, ends) = (self.stands_by(from), self.stands_by(to));
+        (!starts.is_empty() && !ends.is_empty()).then(|| self.way_between(&starts, &ends))
+    }
+
+    /// Returns the way from about `from` to the nearest of several points where the robot has
+    /// stood; `None` if it can stand at none of them now. O(cells on the way).
+    #[must_use]
+    pub fn way_to_any(&self, from: Point, to: &[Point]) -> Option<GroundWay<'_>> {
+        let starts = self.stands_by(from);
+        let ends = to.iter().map(|to| index_of(*to));
+        let ends: Vec<GridIndex> = ends.filter(|end| self.leads_over(*end)).collect();
         (!starts.is_empty() && !ends.is_empty()).then(|| self.way_between(&starts, &ends))
     }
 
@@ -144,7 +178,7 @@ impl<'a> Clearings<'a> {
             for next in neighbours(index) {
                 if let Some(slot) = self.grid.slot(next)
                     && cells[slot] == UNREACHED
-                    && self.grid.stands(next, self.radius)
+                    && self.leads_over(next)
                 {
                     cells[slot] = gone + 1;
                     queue.push_back((next, slot));

@@ -49,7 +49,7 @@ const SURPRISE: f64 = 3.0;
 /// Misfit below which a scan fits well, mean square.
 const WELL: f64 = 1.5;
 /// Minimum number of adjacent beams that end on a new wall.
-const BEAMS_OF_A_WALL: u32 = 8;
+pub(super) const BEAMS_OF_A_WALL: u32 = 8;
 
 impl Default for Evidence {
     fn default() -> Self {

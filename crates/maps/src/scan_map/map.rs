@@ -1,4 +1,4 @@
-use alloc::collections::BTreeSet;
+use alloc::collections::{BTreeMap, BTreeSet};
 use alloc::vec::Vec;
 
 use tolman_geom::{Heading, Point, Vector};
@@ -6,6 +6,7 @@ use tolman_robot::{Landmark, MapView, Scan};
 
 use super::chart::view;
 use super::fit::{ScanFit, fit};
+use super::wall_grid::GridIndex;
 use super::{Clearings, ScanChart, ScanMapConfig, WallGrid};
 
 /// A map of places, which are merged as it grows, with the links driven between them and the walls
@@ -25,6 +26,10 @@ pub struct ScanMap {
     goal: Vec<Point>,
     /// Positions where the landmark of the start was sensed, unless the map begins there.
     start: Vec<Point>,
+    /// Positions where numbered landmarks were sensed.
+    numbered: BTreeMap<u32, Vec<Point>>,
+    /// Cells of walls that have come since they were drawn as floor.
+    come: BTreeSet<GridIndex>,
     position: Point,
     /// Variance of the position along each axis, m².
     variance: Vector,
@@ -78,6 +83,9 @@ pub struct Advance<'a> {
     pub scan: &'a Scan,
     /// Landmark at which the robot stands; `None` if there is none.
     pub landmark: Option<Landmark>,
+    /// Whether walls may have come or gone since they were drawn. Else what contradicts them tells
+    /// of a robot that was lifted.
+    pub walls_change: bool,
 }
 
 impl ScanMap {
@@ -96,6 +104,8 @@ impl ScanMap {
             stands: Vec::new(),
             goal: Vec::new(),
             start: Vec::new(),
+            numbered: BTreeMap::new(),
+            come: BTreeSet::new(),
             position: Point::origin(),
             variance: Vector::zeros(),
             at: None,
@@ -120,7 +130,12 @@ impl ScanMap {
         self.agreement = fitted.agreement;
         // After a scan is drawn, errors before it belong to the map, not to the robot.
         self.variance = fitted.variance;
-        self.weigh(contradicted);
+        if seen.walls_change {
+            let come = self.grid.renew(self.position, seen.heading, seen.scan);
+            self.come.extend(come);
+        } else {
+            self.weigh(contradicted);
+        }
         self.draw(seen);
         self.enter(seen.landmark);
         if let Some(landmark) = seen.landmark {
@@ -188,6 +203,38 @@ impl ScanMap {
         &self.start
     }
 
+    /// Returns the positions at which a landmark was sensed, m.
+    #[must_use]
+    pub fn spots(&self, landmark: Landmark) -> Vec<Point> {
+        let begins_there = self
+            .places
+            .first()
+            .map(|first| (first.landmark, first.position));
+        let first = begins_there.filter(|(of, _)| *of == Some(landmark));
+        let known = match landmark {
+            Landmark::Goal => Some(&self.goal),
+            Landmark::Start => Some(&self.start),
+            Landmark::Numbered(number) => self.numbered.get(&number),
+        };
+        let known = known.into_iter().flatten().copied();
+        first.map(|(_, at)| at).into_iter().chain(known).collect()
+    }
+
+    /// Returns the positions at which numbered landmarks were sensed, m, with their numbers.
+    pub(super) fn numbered(&self) -> impl Iterator<Item = (u32, Point)> + '_ {
+        let all = self.numbered.iter();
+        all.flat_map(|(number, spots)| spots.iter().map(|at| (*number, *at)))
+    }
+
+    /// Takes away the walls that have come since the map was drawn: they may have gone again.
+    /// Returns whether there were any. O(cells).
+    pub fn reopen(&mut self) -> bool {
+        let come = core::mem::take(&mut self.come);
+        let were_any = !come.is_empty();
+        self.grid.reopen(come);
+        were_any
+    }
+
     /// Returns the cells where the robot has been and could still stand.
     #[must_use]
     pub fn clearings(&self) -> Clearings<'_> {
@@ -202,6 +249,11 @@ impl ScanMap {
             + size_of_val(self.stands.as_slice())
             + size_of_val(self.goal.as_slice())
             + size_of_val(self.start.as_slice())
+            + self
+                .numbered
+                .values()
+                .map(|spots| size_of_val(spots.as_slice()))
+                .sum::<usize>()
             + self.grid.bytes()
     }
 
@@ -227,8 +279,7 @@ impl ScanMap {
         self.config.radius
     }
 
-    /// Records the position where the landmark of the goal or the start was sensed, unless one is
-    /// stored near it.
+    /// Records the position where a landmark was sensed, unless one is stored near it.
     fn sense(&mut self, landmark: Landmark, at: Point) {
         let first = self.places.first();
         let begins_there = first.is_none_or(|first| first.landmark == Some(landmark));
@@ -239,7 +290,8 @@ impl ScanMap {
                 self.surprise = 1.0;
                 return;
             }
-            Landmark::Start | Landmark::Numbered(_) => return,
+            Landmark::Start => return,
+            Landmark::Numbered(number) => self.numbered.entry(number).or_default(),
         };
         let is_new = |known: &Point| (at - known).norm() >= SPACING_OF_LANDMARK;
         if known.iter().all(is_new) {

@@ -8,6 +8,8 @@ use tolman_robot::Scan;
 use super::GroundKind;
 use super::grid_area::GridArea;
 
+mod changes;
+
 /// Counts of beams that ended and that passed, on a square grid that grows.
 ///
 /// A cell is a wall while enough beams ended in it, relative to those that passed. Each cell stores
@@ -120,7 +122,7 @@ impl WallGrid {
         let (mut known, mut elsewhere) = (0, 0);
         for (index, range) in (0..).zip(&scan.ranges) {
             let unit = heading.turned(scan.ring.bearing(index)).unit();
-            if let Some(expected) = self.range(from, unit, scan.ring.max_range) {
+            if let Some(expected) = self.range(from, unit, scan.ring.max_range, 0) {
                 known += 1;
                 elsewhere += u32::from((range - expected).abs() > ELSEWHERE);
             }
@@ -129,15 +131,17 @@ impl WallGrid {
     }
 
     /// Returns the distance to the first wall, up to `most` m; `None` if unknown ground lies before
-    /// it.
-    fn range(&self, from: Point, unit: Vector, most: f64) -> Option<f64> {
+    /// it, longer than `unknown` half cells. From one position alone the last cell before a wall
+    /// stays unknown.
+    fn range(&self, from: Point, unit: Vector, most: f64, unknown: u32) -> Option<f64> {
         let steps = (most / (0.5 * Self::CELL)) as u32;
+        let mut left = unknown;
         for step in 1..=steps {
             let range = f64::from(step) * 0.5 * Self::CELL;
             match self.ground(index_of(from + unit * range)) {
-                GroundKind::Floor => {}
+                GroundKind::Floor => left = unknown,
                 GroundKind::Wall => return Some(range),
-                GroundKind::Unknown => return None,
+                GroundKind::Unknown => left = left.checked_sub(1)?,
             }
         }
         Some(most)
@@ -207,6 +211,15 @@ impl WallGrid {
             .is_some_and(|cell| cell.passes > 0 && f64::from(cell.wall) * DISTANCE_UNIT >= radius)
     }
 
+    /// Returns whether a body of this radius, m, could fit with its middle in the cell, if that were
+    /// floor: nothing is known of it, and known walls leave room.
+    pub(super) fn may_stand(&self, index: GridIndex, radius: f64) -> bool {
+        self.ground(index) == GroundKind::Unknown
+            && self
+                .cell(index)
+                .is_some_and(|cell| f64::from(cell.wall) * DISTANCE_UNIT >= radius)
+    }
+
     /// Returns the first cell, and the cell one column and one row past the last.
     pub(super) fn bounds(&self) -> [GridIndex; 2] {
         self.area.bounds()
@@ -235,6 +248,24 @@ impl WallGrid {
 
     /// Counts a pass for every cell between two beams that lies nearer than both of them reached.
     fn pass(&mut self, from: Point, heading: Heading, scan: &Scan) {
+        self.between_beams(from, heading, scan, |grid, index, slot| {
+            let was_wall = grid.cells[slot].is_wall();
+            grid.cells[slot].passes = grid.cells[slot].passes.saturating_add(1);
+            if was_wall && !grid.cells[slot].is_wall() {
+                grid.measure_again(index);
+            }
+        });
+    }
+
+    /// Calls `visit` with every cell between two beams that lies nearer than both of them reached,
+    /// and its slot. O(cells within the range).
+    fn between_beams(
+        &mut self,
+        from: Point,
+        heading: Heading,
+        scan: &Scan,
+        mut visit: impl FnMut(&mut Self, GridIndex, usize),
+    ) {
         let ring = scan.ring;
         let beams = scan.ranges.len();
         let [low, high] = [-ring.max_range, ring.max_range]
@@ -253,11 +284,7 @@ impl WallGrid {
                 if distance < shorter - Self::CELL
                     && let Some(slot) = self.slot([column, row])
                 {
-                    let was_wall = self.cells[slot].is_wall();
-                    self.cells[slot].passes = self.cells[slot].passes.saturating_add(1);
-                    if was_wall && !self.cells[slot].is_wall() {
-                        self.measure_again([column, row]);
-                    }
+                    visit(self, [column, row], slot);
                 }
             }
         }

@@ -49,6 +49,7 @@ fn map_with(drawing: &[&str], goal: Vec<Point>) -> CorridorMap {
         links: Vec::new(),
         goal,
         start: Vec::new(),
+        numbered: Vec::new(),
         surprise: 0.0,
         cell: WallGrid::CELL,
         first: [0, 0],
@@ -274,6 +275,7 @@ fn of_maze(seed: u64) -> (CorridorMap, Vec<Point>) {
         } else {
             Vec::new()
         },
+        numbered: Vec::new(),
         surprise: 0.0,
         cell: WallGrid::CELL,
         first: [0, 0],

@@ -116,6 +116,7 @@ fn chart(places: usize, links: usize, goal: usize, start: usize, columns: usize)
         links: (1..=links as u32).map(|to| [0, to]).collect(),
         goal: vec![Point::origin(); goal],
         start: vec![Point::origin(); start],
+        numbered: Vec::new(),
         surprise: 0.0,
         cell: WallGrid::CELL,
         first: [0, 0],

@@ -51,6 +51,7 @@ fn walked(length: f64, errors: &[f64]) -> (ScanMap, f64) {
             heading: Heading::EAST,
             scan: &scan_of(length, at, Heading::EAST),
             landmark: (at.x > length - 0.6).then_some(Landmark::Goal),
+            walls_change: false,
         });
     };
     observe(at, Vector::zeros());
@@ -104,6 +105,7 @@ fn walls_correct_odometry_that_is_worse_than_it_told() {
                 heading: Heading::EAST,
                 scan: &scan_of(1.6, Point::new(x, 0.475), Heading::EAST),
                 landmark: None,
+                walls_change: false,
             });
         }
         let off = (map.position() - Point::origin()).norm();
@@ -211,6 +213,7 @@ fn a_scan_that_fits_nowhere_makes_it_begin_anew() {
         heading: Heading::EAST,
         scan: &scan_of(9.0, start, Heading::EAST),
         landmark: None,
+        walls_change: false,
     });
     let on = Standpoints::of(map.chart(), ring());
     let nowhere = scan_of(0.6, Point::new(0.3, 0.475), Heading::EAST);
@@ -395,6 +398,7 @@ fn a_run_in_a_corridor_is_what_it_was() {
             heading: Heading::from_degrees(3.0),
             scan: &scan_of(3.4, at, Heading::from_degrees(3.0)),
             landmark: (at.x > 2.6).then_some(Landmark::Goal),
+            walls_change: false,
         });
         figures.push(format!("{:?} {:?}", map.position(), map.at()));
         figures.push(format!("{} {}", map.agreement(), map.surprise()));
@@ -458,6 +462,7 @@ fn charted(goal: usize, surprise: f64) -> ScanChart {
         links: vec![[0, 1], [0, 4], [1, 2], [2, 3], [3, 4]],
         goal: vec![Point::origin(); goal],
         start: Vec::new(),
+        numbered: Vec::new(),
         surprise,
         cell: WallGrid::CELL,
         first: [0, 0],
@@ -520,6 +525,7 @@ fn a_start_is_noted_where_the_map_does_not_begin() {
                 heading: Heading::EAST,
                 scan: &scan_of(4.0, at, Heading::EAST),
                 landmark,
+                walls_change: false,
             });
         }
         let before = (map.start().len(), map.goal().len());
@@ -550,6 +556,7 @@ fn a_start_elsewhere_is_a_surprise() {
         heading: Heading::EAST,
         scan: &scan_of(4.0, Point::new(0.5, 0.475), Heading::EAST),
         landmark: Some(Landmark::Start),
+        walls_change: false,
     });
     assert_eq!(map.position(), Point::origin());
     map.pass(Vector::new(1.9 * DIAMETER, 0.0), Landmark::Start);

@@ -1,6 +1,7 @@
 //! The drawing of posts and walls that the `mazefiles` collection, mms and tolman's own files
 //! share.
 
+use alloc::collections::BTreeMap;
 use alloc::string::{String, ToString};
 use alloc::vec;
 use alloc::vec::Vec;
@@ -71,6 +72,7 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
         places: vec![Place::default(); grid.cell_count()],
         start: None,
         goals: Vec::new(),
+        landmarks: BTreeMap::new(),
         unknown: Vec::new(),
     };
     // Row y of the cells is line 2 · (height - 1 - y) + 1; the posts to its north are the line
@@ -89,6 +91,7 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
         .maze
         .set_start(reader.start.map(|cell| (cell, Direction::North)));
     reader.maze.set_goals(reader.goals);
+    reader.maze.set_landmarks(reader.landmarks);
     let mut parsed = Parsed {
         begin: first.place(0),
         ..Parsed::new(reader.maze, reader.places)
@@ -105,8 +108,12 @@ struct Reader {
     places: Vec<Place>,
     start: Option<Cell>,
     goals: Vec<Cell>,
+    landmarks: BTreeMap<Cell, u32>,
     unknown: Vec<(Cell, Direction)>,
 }
+
+/// What may stand in a cell.
+const MARKS: &str = "a blank, `S`, `G` or the number of one landmark, 1 to 8, in a cell";
 
 impl Reader {
     /// Reads the line of posts on the `side` of the cells of row `y`.
@@ -142,7 +149,14 @@ impl Reader {
                         }
                     }
                     'G' | 'g' => self.goals.push(cell),
-                    _ => return Err(row.unexpected(offset, "a blank, `S` or `G` in a cell")),
+                    mark => {
+                        let number = mark.to_digit(10).filter(|n| Maze::LANDMARKS.contains(n));
+                        let landmark = number.filter(|_| !self.landmarks.contains_key(&cell));
+                        let Some(landmark) = landmark else {
+                            return Err(row.unexpected(offset, MARKS));
+                        };
+                        self.landmarks.insert(cell, landmark);
+                    }
                 }
             }
         }
@@ -220,12 +234,18 @@ pub(crate) fn draw(maze: &Maze, out: &mut impl fmt::Write) -> fmt::Result {
             })?;
             let is_start = maze.start().is_some_and(|(start, _)| start == cell);
             let is_goal = maze.goals().binary_search(&cell).is_ok();
-            out.write_str(match (is_start, is_goal) {
-                (true, true) => "S G",
-                (true, false) => " S ",
-                (false, true) => " G ",
-                (false, false) => "   ",
-            })?;
+            let landmark = maze.landmarks().get(&cell);
+            let landmark = landmark.and_then(|number| char::from_digit(*number, 10));
+            let marks = [is_start.then_some('S'), landmark, is_goal.then_some('G')];
+            let [west, middle, east] = match marks {
+                [Some(mark), None, None] | [None, None, Some(mark)] => [' ', mark, ' '],
+                [Some(start), Some(landmark), None] => [start, ' ', landmark],
+                [None, Some(landmark), Some(goal)] => [landmark, ' ', goal],
+                marks => marks.map(|mark| mark.unwrap_or(' ')),
+            };
+            for mark in [west, middle, east] {
+                out.write_char(mark)?;
+            }
         }
         let east = Cell::new(grid.width().saturating_sub(1), y);
         out.write_str(if maze.is_open(east, Direction::East) {

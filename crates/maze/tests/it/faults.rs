@@ -76,7 +76,7 @@ fn drawings() {
     );
     check(
         "o---o---o\n| S | ö |\no---o---o\n",
-        "line 2, column 7: found 'ö': expected a blank, `S` or `G` in a cell",
+        "line 2, column 7: found 'ö': expected a blank, `S`, `G` or the number of one landmark, 1 to 8, in a cell",
     );
     check(
         "o---o---o\n| S   G |\no-- o---o\n",

@@ -185,9 +185,11 @@ impl Guide {
             return Ok(Standing::UnderWay);
         }
         self.visited.push(self.observer().map(Observer::place));
-        let (here, passed) = (rover.landmark(), rover.passed());
-        let on_the_way = passed.filter(|_| ![before, here].contains(&passed));
-        self.recognize_on_way(on_the_way, place);
+        let here = rover.landmark();
+        let passed = rover.passed().iter().copied().map(Some);
+        for landmark in passed.filter(|passed| ![before, here].contains(passed)) {
+            self.recognize_on_way(landmark, place);
+        }
         self.recognize(here);
         if self.is_done(task, here) {
             return Ok(Standing::Done);
@@ -437,7 +439,7 @@ impl Guide {
         Next::Continue(direction)
     }
 
-    /// Follows the plan to a landmark, and explores if its spot is unknown.
+    /// Follows the plan to a landmark. If its spot is unknown, goes where it has never been.
     fn seek(&mut self, landmark: Landmark, here: Option<Landmark>) -> Next {
         if let (Some(spot), Some(observer)) = (self.spot_of(landmark), self.observer()) {
             let (LandmarkSpot::Place(place) | LandmarkSpot::Way(place, _)) = spot;
@@ -456,7 +458,21 @@ impl Guide {
         if self.observer().is_some_and(is_explored) {
             return give_up("the landmark is nowhere that it can reach");
         }
-        self.wander()
+        self.go_to_unknown().unwrap_or_else(|| self.wander())
+    }
+
+    /// Takes the next step to an action that was never tried; `None` if no such step leads on from
+    /// here.
+    fn go_to_unknown(&mut self) -> Option<Next> {
+        let advice = self.observer()?.go_to_unknown()?;
+        let Action(first) = *advice.script.first()?;
+        let direction = *Direction::ALL.get(first as usize)?;
+        if !self.exits[direction.index()] {
+            return None;
+        }
+        self.planner.drop_script();
+        self.reason = Some(Reason::Advice(advice));
+        Some(Next::Continue(direction))
     }
 
     /// Returns the spot where `landmark` was sensed, by the place's present id.

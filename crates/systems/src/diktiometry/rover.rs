@@ -31,10 +31,10 @@ pub trait Rover {
         None
     }
 
-    /// Returns the last landmark that the robot sensed in a time step of this rover. The default
-    /// senses none.
-    fn passed(&self) -> Option<Landmark> {
-        None
+    /// Returns the landmarks that the robot sensed in time steps of this rover, each once. The
+    /// default senses none.
+    fn passed(&self) -> &[Landmark] {
+        &[]
     }
 }
 

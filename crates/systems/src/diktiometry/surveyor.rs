@@ -29,8 +29,8 @@ pub struct Surveyor<R, E> {
     unseen: u32,
     /// Landmark at which the robot breaks off.
     sought: Option<Landmark>,
-    /// Last landmark that was sensed.
-    passed: Option<Landmark>,
+    /// Landmarks that were sensed.
+    passed: Vec<Landmark>,
 }
 
 /// Maximum error of a turn, rad.
@@ -57,7 +57,7 @@ impl<R, E> Surveyor<R, E> {
             steps: 0,
             unseen: 0,
             sought: None,
-            passed: None,
+            passed: Vec::new(),
         })
     }
 
@@ -198,7 +198,9 @@ where
     fn step(&mut self, command: &TurnTranslate) -> Result<(), RoutineError<R::Error>> {
         self.robot.step(command).map_err(RoutineError::Robot)?;
         let here = self.robot.landmark();
-        self.passed = here.or(self.passed);
+        if let Some(landmark) = here.filter(|landmark| !self.passed.contains(landmark)) {
+            self.passed.push(landmark);
+        }
         match here {
             Some(_) if here == self.sought => Err(RoutineError::Found),
             _ => Ok(()),
@@ -323,7 +325,7 @@ where
         self.robot.landmark()
     }
 
-    fn passed(&self) -> Option<Landmark> {
-        self.passed
+    fn passed(&self) -> &[Landmark] {
+        &self.passed
     }
 }

@@ -15,7 +15,9 @@ use crate::{Brain, Doing, ForRobotError, LaserRobot, OnRobot, OwnHeading, Rolled
 /// The better MSLST as a whole: it explores, makes its map ready, and then navigates.
 ///
 /// Let an [`Actor`](crate::Actor) drive it. [`Task::Explore`] ends when no gap is left. If the
-/// robot is put down elsewhere before that, exploration ends and it navigates by the map so far.
+/// robot is put down elsewhere before that, exploration ends and it navigates by the map so far. As
+/// long as it has not explored everything, it looks for a landmark that it is sent to, and maps on
+/// the way, also if walls come and go.
 #[derive(Clone, Debug)]
 pub struct BetterMslst {
     config: BetterConfig,
@@ -194,7 +196,7 @@ impl Brain for BetterMslst {
 
     fn aim(&mut self, task: Task) {
         match &mut self.phase {
-            Phase::Exploration(_) => {}
+            Phase::Exploration(explorer) => explorer.aim(task),
             Phase::Explored(_, navigator) | Phase::Navigation(navigator) => navigator.aim(task),
         }
     }

@@ -57,6 +57,7 @@ impl SystemEntry for CpmEntry {
             kinds: &[RobotKind::Epuck, RobotKind::Laser],
             own_robot: RobotEntry::EPUCK.name,
             why_no_log: "it tells ways apart by patterns of infrared readings: give cpm-better",
+            delivers: true,
             drives: DrivesBy::AnyMap,
             ..SystemFacts::new("cpm")
         };
@@ -176,7 +177,7 @@ struct Ground {
 impl Ground {
     fn of(setup: &Setup<'_>, mode: Mode) -> Result<Self, BoxError> {
         let course = match setup.robot.kind() {
-            RobotKind::Epuck => setup.with_door(epuck_course_on(setup.world, setup.terrain)?)?,
+            RobotKind::Epuck => setup.with_doors(epuck_course_on(setup.world, setup.terrain)?)?,
             _ => setup.course(&body(), CORRIDOR_WIDTH)?,
         };
         let mut walker = match setup.robot.kind() {

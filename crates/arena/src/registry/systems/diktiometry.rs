@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 use tolman_draw::Drawing;
 use tolman_geom::{Heading, Interval, Point, Pose};
 use tolman_maps::diktiometry::{
-    Action, Config, DecidingWalk, JournalLength, Link, Observer, OpenPair, PlaceId,
+    Action, Config, DecidingWalk, JournalLength, Link, Observer, OpenPair, PlaceId, WorldKind,
 };
 use tolman_maze::Direction;
 use tolman_robot::{Landmark, MapView, Mapper, Task};
@@ -16,7 +16,7 @@ use tolman_systems::diktiometry::{
 };
 use tolman_systems::stream;
 
-use crate::contest::PlaceRule;
+use crate::contest::{Condition, PlaceRule};
 use crate::course::{Course, Terrain};
 use crate::diktiometry::{
     Office, OfficeConfig, PlaceCue, SurveyFile, Surveyed, SurveyorConfig, mapper, office_robot,
@@ -109,6 +109,7 @@ impl SystemEntry for DiktiometryEntry {
             presets: &PRESETS,
             arena_preset: Some(ARENA),
             why_no_log: "it keeps no journal of its moves: give diktiometry-better",
+            delivers: true,
             drives: DrivesBy::AnyMap,
             places: PlaceRule::Corners,
             ..SystemFacts::new("diktiometry")
@@ -290,7 +291,7 @@ impl DiktiometryEntry {
         };
         let maze = &setup.terrain.maze(OFFICE)?.maze;
         let mut office = Office::new(maze, &furniture)?.named(setup.world);
-        office.course = setup.with_door(office.course)?;
+        office.course = setup.with_doors(office.course)?;
         let config = surveyor(&setup.robot);
         let made = setup.condition.surveyor(config.clone(), setup.seed);
         let random = || {
@@ -300,7 +301,11 @@ impl DiktiometryEntry {
         let start = setup.start(&office.course, random)?;
         let pose = Pose::new(start.position, Heading::NORTH);
         let routines = config.routines(furniture.corridor_width);
-        let paper = DiktiometerConfig::paper(routines, self.mapper(&office, &config));
+        let mut mapper = self.mapper(&office, &config);
+        if setup.condition == Condition::MovingDoors {
+            mapper.world = WorldKind::Changing;
+        }
+        let paper = DiktiometerConfig::paper(routines, mapper);
         let (course, seed) = (office.course.clone(), setup.seed);
         let outing: Box<dyn Outing> = match config.sight {
             PlaceCue::Laser { columns } => {

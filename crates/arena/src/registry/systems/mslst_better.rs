@@ -42,6 +42,7 @@ impl SystemEntry for MslstBetterEntry {
             for_robot: Ok(|measures, robot, seed| {
                 any(BetterMslst::for_robot(measures, robot, seed))
             }),
+            delivers: true,
             drives: DrivesBy::AnyMap,
             demo: (DemoWorld::Large, 8),
             ..SystemFacts::new("mslst-better")

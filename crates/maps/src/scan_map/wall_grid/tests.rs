@@ -164,7 +164,7 @@ fn a_grid_of_a_drawing_is_what_was_drawn() {
 #[test]
 fn a_beam_ends_at_the_first_wall_and_tells_nothing_beyond_the_unknown() {
     let grid = drawn(&["...........", "........#..", "....  ....."]);
-    let range = |row: i32, unit: Vector, most| grid.range(middle([-1, row]), unit, most);
+    let range = |row: i32, unit: Vector, most| grid.range(middle([-1, row]), unit, most, 0);
     // From the middle of column −1 to the border of column 6 it is 6.5 cells.
     let wall = range(0, Vector::x(), 1.0).unwrap();
     assert!(

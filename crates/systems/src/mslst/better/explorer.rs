@@ -2,10 +2,12 @@ use core::convert::Infallible;
 
 use rand::{Rng, RngExt};
 use tolman_control::{StuckBeams, heading_of, unit_of};
-use tolman_geom::{Point, nearest_on_segment};
+use tolman_geom::{Heading, Point, nearest_on_segment};
 use tolman_maps::scan_map::{Advance, Clearings, CorridorMap, GroundWay, ScanMap, ScanMapConfig};
 use tolman_maze::Direction;
-use tolman_robot::{Guess, Landmark, MapView, Mapper, Position, Scan, Standing, Task, VisitNaming};
+use tolman_robot::{
+    Goal, Guess, Landmark, MapView, Mapper, Position, Scan, Standing, Task, VisitNaming,
+};
 
 use super::reckoning::Reckoning;
 use super::stop::Stop;
@@ -14,6 +16,10 @@ use super::{BetterConfig, BetterPart};
 use crate::{Brain, Doing, RolledStep};
 
 /// Learns a [`ScanMap`]: goes to its gaps until none is left, then back to where the map begins.
+///
+/// Sent to a landmark, it goes there by the map so far, and looks for it in the gaps until it is on
+/// the map. On such errands walls may come and go: it draws them anew, and sees no sign of a lift
+/// in them.
 ///
 /// If the robot was moved meanwhile, the way back leads through walls or past openings that are not
 /// on the map.
@@ -45,6 +51,10 @@ pub struct BetterExplorer {
     knew_start: bool,
     /// Number of actions left to come back; `None` while there are gaps.
     homeward: Option<f64>,
+    /// Landmark to which it is sent; `None` while it explores.
+    sought: Option<Landmark>,
+    /// What it sensed when the last action ended.
+    sensed: Option<(Scan, Heading)>,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -59,6 +69,8 @@ enum Plan {
     Finished,
     /// No gap is left, and the robot does not come back.
     Strayed,
+    /// No gap is left, and the landmark that it is sent to is not on the map.
+    Nowhere,
 }
 
 /// Probability that the map is right if something contradicts it; [`SURE`] if nothing does. Both
@@ -102,6 +114,8 @@ impl BetterExplorer {
             forgotten: 0,
             knew_start: false,
             homeward: None,
+            sought: None,
+            sensed: None,
         }
     }
 
@@ -131,6 +145,7 @@ impl BetterExplorer {
             Plan::Finished => self.map.chart().doubt(),
             Plan::Return(_) | Plan::Strayed => Some("it did not come back to where its map begins"),
             Plan::Go(_) | Plan::Stuck => Some("a gap is left that it did not come to"),
+            Plan::Nowhere => Some("a landmark that it looked for is not on it"),
         }
     }
 
@@ -158,8 +173,15 @@ impl BetterExplorer {
             dropped: self.dropped + 1,
             forgotten: self.visit_count(),
             knew_start: self.knew_start || self.knows_start(),
+            sought: self.sought,
             ..Self::new(self.config)
         };
+    }
+
+    /// Returns whether it takes walls that contradict the map for a lift. On errands they have come
+    /// or gone.
+    fn heeds_lifts(&self) -> bool {
+        self.config.has(BetterPart::Lifts) && self.sought.is_none()
     }
 
     fn arrived(&mut self, seen: &RolledStep, scan: Option<&Scan>) {
@@ -174,14 +196,16 @@ impl BetterExplorer {
             heading,
             scan,
             landmark: seen.step.landmark,
+            walls_change: self.sought.is_some(),
         });
-        let heeds_lifts = self.config.has(BetterPart::Lifts) && self.dropped < MOST_DROPPED;
-        if heeds_lifts && self.map.surprise() > ScanMap::DOUBTFUL {
+        let may_drop = self.heeds_lifts() && self.dropped < MOST_DROPPED;
+        if may_drop && self.map.surprise() > ScanMap::DOUBTFUL {
             // It did not notice at once.
             self.begin_anew();
             return self.arrived(seen, Some(scan));
         }
         self.trail.push(self.map.position());
+        self.sensed = Some((scan.clone(), heading));
         self.plan = self.consult(scan, heading.radians());
         self.break_a_round();
     }
@@ -193,7 +217,9 @@ impl BetterExplorer {
         let (action, at_random) = match self.plan {
             Plan::Go(action) => (action, Plan::Stuck),
             Plan::Return(Some(action)) => (action, Plan::Return(None)),
-            Plan::Return(None) | Plan::Stuck | Plan::Finished | Plan::Strayed => return,
+            Plan::Return(None) | Plan::Stuck | Plan::Finished | Plan::Strayed | Plan::Nowhere => {
+                return;
+            }
         };
         if self.tries.count(here, action) >= ROUNDS {
             self.plan = at_random;
@@ -203,6 +229,15 @@ impl BetterExplorer {
     }
 
     fn consult(&mut self, scan: &Scan, heading: f64) -> Plan {
+        if let Some(landmark) = self.sought {
+            let found = self.seek(landmark, scan, heading);
+            // What barred the way may have gone again.
+            return match found {
+                None if self.map.reopen() => self.seek(landmark, scan, heading),
+                found => found,
+            }
+            .unwrap_or(Plan::Nowhere);
+        }
         let clearings = self.map.clearings();
         if let Some(way) = clearings.way_to_gap(self.map.position()) {
             self.homeward = None;
@@ -228,6 +263,18 @@ impl BetterExplorer {
             return Plan::Strayed;
         }
         Plan::Return(self.towards(&clearings, &way, scan, heading))
+    }
+
+    /// Returns the plan to come to a landmark: by the map, or to the nearest gap if it is not there.
+    /// `None` if there is no gap either.
+    fn seek(&self, landmark: Landmark, scan: &Scan, heading: f64) -> Option<Plan> {
+        let here = self.map.position();
+        let (clearings, hopeful) = (self.map.clearings(), self.map.clearings().hopeful());
+        let way = hopeful.way_to_any(here, &self.map.spots(landmark));
+        let way = way.filter(|way| way.metres(here).is_some());
+        let way = way.or_else(|| clearings.way_to_gap(here))?;
+        let action = self.towards(&clearings, &way, scan, heading);
+        Some(action.map_or(Plan::Stuck, Plan::Go))
     }
 
     /// Returns whether the robot's last action passed where its map begins, at most an action's way
@@ -308,7 +355,7 @@ impl Mapper for BetterExplorer {
         }
         let scan = seen.step.scan.as_ref();
         let scan = scan.map(|scan| self.beams.mended(scan));
-        if self.config.has(BetterPart::Lifts)
+        if self.heeds_lifts()
             && let Some(stop) = self.stop.take()
             && stop.was_left_by_a_lift(seen, scan.as_ref())
         {
@@ -386,8 +433,23 @@ impl Brain for BetterExplorer {
     fn choose(&mut self, rng: &mut dyn Rng) -> Direction {
         match self.plan {
             Plan::Go(action) | Plan::Return(Some(action)) => action,
-            Plan::Return(None) | Plan::Stuck | Plan::Finished | Plan::Strayed => {
+            Plan::Return(None) | Plan::Stuck | Plan::Finished | Plan::Strayed | Plan::Nowhere => {
                 Direction::ALL[rng.random_range(0..4)]
+            }
+        }
+    }
+
+    fn aim(&mut self, task: Task) {
+        let sought = match task {
+            Task::Reach(Goal::Landmark(landmark)) => Some(landmark),
+            Task::Reach(Goal::Place(_) | Goal::Point(_)) | Task::Explore | Task::Localize => None,
+        };
+        if sought != self.sought {
+            self.sought = sought;
+            self.tries = Tries::default();
+            if let Some((scan, heading)) = self.sensed.take() {
+                self.plan = self.consult(&scan, heading.radians());
+                self.sensed = Some((scan, heading));
             }
         }
     }
@@ -403,7 +465,11 @@ impl Brain for BetterExplorer {
                 Standing::gave_up(self.why_doubtful().unwrap_or(everywhere))
             }
             Task::Explore => Standing::Done,
-            Task::Reach(_) | Task::Localize => {
+            Task::Reach(Goal::Landmark(_)) if self.plan == Plan::Nowhere => {
+                Standing::gave_up("it has been everywhere, and the landmark was nowhere")
+            }
+            Task::Reach(Goal::Landmark(_)) => Standing::UnderWay,
+            Task::Reach(Goal::Place(_) | Goal::Point(_)) | Task::Localize => {
                 Standing::gave_up("its map is not finished yet: let it explore first")
             }
         }
@@ -421,6 +487,7 @@ impl Brain for BetterExplorer {
             Plan::Return(_) => format!("{places} places, no gap is left, on the way back"),
             Plan::Finished => format!("{places} places, no gap is left"),
             Plan::Strayed => format!("{places} places, it does not come back"),
+            Plan::Nowhere => format!("{places} places, the landmark is nowhere"),
         }
     }
 }

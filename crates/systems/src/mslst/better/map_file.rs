@@ -134,6 +134,7 @@ mod tests {
                 heading: Heading::EAST,
                 scan: &scan,
                 landmark: (moved > 0.1).then_some(Landmark::Goal),
+                walls_change: false,
             });
         }
         BetterMapFile {

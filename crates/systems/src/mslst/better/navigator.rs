@@ -124,16 +124,23 @@ impl BetterNavigator {
     }
 
     /// Returns whether a point of its map belongs to a goal: to a place, or within half a corridor
-    /// of a point.
+    /// of a point, or of where a landmark was sensed.
     fn is_there(&self, goal: Goal, at: Point) -> bool {
         match goal {
             Goal::Place(place) => self.maps.learned().corridors().at(at) == Some(place),
-            Goal::Point(point) => {
-                (at - point).norm() <= 0.5 * self.current().config.corridor_width
-                    && self.current().chart().ground().sees(point, at)
+            Goal::Point(point) => self.is_by(point, at),
+            Goal::Landmark(Landmark::Numbered(number)) => {
+                let mut spots = self.current().chart().spots_of(number);
+                spots.any(|spot| self.is_by(spot, at))
             }
-            Goal::Landmark(_) => false,
+            Goal::Landmark(Landmark::Goal | Landmark::Start) => false,
         }
+    }
+
+    /// Returns whether a point of its map lies within half a corridor of another, and in sight.
+    fn is_by(&self, point: Point, at: Point) -> bool {
+        (at - point).norm() <= 0.5 * self.current().config.corridor_width
+            && self.current().chart().ground().sees(point, at)
     }
 
     /// Returns the costs of the ways to a goal of its map; `None` if the map does not have it.
@@ -269,8 +276,8 @@ impl Brain for BetterNavigator {
 
     fn aim(&mut self, task: Task) {
         let goal = match task {
-            Task::Reach(goal @ (Goal::Place(_) | Goal::Point(_))) => Some(goal),
-            Task::Reach(Goal::Landmark(_)) | Task::Explore | Task::Localize => None,
+            Task::Reach(Goal::Landmark(Landmark::Goal)) | Task::Explore | Task::Localize => None,
+            Task::Reach(goal) => Some(goal),
         };
         if goal != self.aim.as_ref().map(|(goal, _)| *goal) {
             self.aim = goal.and_then(|goal| Some((goal, self.costs_to(goal)?)));
@@ -282,9 +289,10 @@ impl Brain for BetterNavigator {
         match task {
             Task::Explore => Standing::Done,
             Task::Reach(Goal::Landmark(Landmark::Goal)) => Standing::UnderWay,
-            Task::Reach(Goal::Landmark(_)) => {
-                Standing::gave_up("its map has no landmark but the goal's")
-            }
+            Task::Reach(Goal::Landmark(_)) => match &self.aim {
+                None => Standing::gave_up("the landmark is not on its map"),
+                Some(_) => Standing::UnderWay,
+            },
             Task::Reach(goal) => match &self.aim {
                 None => Standing::gave_up("its map has no floor there"),
                 Some(_) if self.at(goal) > SURE => Standing::Done,
