@@ -1,5 +1,6 @@
 //! `tolman arena`: sends systems into worlds of every kind and compares their maps with the truth.
 
+mod errands;
 mod verdicts;
 
 use core::time::Duration;
@@ -54,6 +55,10 @@ pub(super) struct Arguments {
     /// Change in the robots and worlds; the conditions are listed below
     #[arg(long, value_name = "NAME", default_value = "as-made")]
     condition: String,
+    /// What the systems do: learn, find out where they are and come home, or run errands from
+    /// landmark to landmark with an empty map
+    #[arg(long, value_enum, default_value_t)]
+    task: ArenaTask,
     /// Family of worlds, or `all`
     #[arg(
         long,
@@ -83,6 +88,16 @@ pub(super) struct Arguments {
     /// harder while most maps are right
     #[arg(long, conflicts_with_all = ["mazes", "maze_files", "json", "cost", "condition", "starts"])]
     own_verdict: bool,
+}
+
+/// What systems do in the arena.
+#[derive(Clone, Copy, Debug, Default, PartialEq, clap::ValueEnum)]
+enum ArenaTask {
+    /// Learn, be put down, find out where that is, and come to the goal
+    #[default]
+    Learn,
+    /// Deliver from landmark to landmark, with an empty map in the beginning
+    Errands,
 }
 
 /// Default number of worlds of each family; the second is the maximum with `--own-verdict`.
@@ -128,8 +143,11 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     if arguments.own_verdict {
         return verdicts::judge(arguments, &contestants, robot, &arguments.kinds(app)?, out);
     }
-    let condition = condition(app, &arguments.condition)?;
+    let condition = condition(app, &arguments.condition, arguments.task)?;
     let worlds = arguments.worlds(app)?;
+    if arguments.task == ArenaTask::Errands {
+        return errands::run(arguments, &contestants, robot, condition, &worlds, out);
+    }
     let jobs: Vec<(Contestant, &DrawnWorld)> = contestants
         .iter()
         .flat_map(|contestant| worlds.iter().map(|world| (*contestant, world)))
@@ -208,8 +226,11 @@ fn contestants(app: &App, name: &str) -> Result<Vec<Contestant>> {
     Ok(vec![app.system(name, competes)?])
 }
 
-fn condition(app: &App, name: &str) -> Result<Condition> {
-    let known = &app.registry().conditions;
+fn condition(app: &App, name: &str, task: ArenaTask) -> Result<Condition> {
+    let mut known = app.registry().conditions.clone();
+    if task == ArenaTask::Errands {
+        known.push(Condition::MovingDoors);
+    }
     let mut conditions = known.iter();
     let named = conditions.find(|condition| slug(&condition.name()) == slug(name));
     named.copied().ok_or_else(|| {
