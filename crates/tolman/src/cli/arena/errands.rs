@@ -1,6 +1,6 @@
 //! `tolman arena --task errands`: systems deliver from landmark to landmark from the first minute.
 
-use std::collections::BTreeMap;
+use alloc::collections::BTreeMap;
 use std::io::{self, Write};
 
 use rayon::prelude::*;
