@@ -3,7 +3,9 @@
 
 use alloc::collections::BTreeSet;
 
-use tolman_maps::bump_map::{BumpMap, BumpMove, BumpWay, NotStill};
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use tolman_maps::bump_map::{BumpMap, BumpMove, BumpMoves, BumpWay, NotStill};
 use tolman_maze::{Cell, Direction, Maze};
 
 /// What the robot sees of the place where it is.
@@ -22,6 +24,15 @@ pub struct BumpWalk<'a> {
     sight: BumpSight,
     at: Cell,
     map: BumpMap,
+    failures: Option<Failures>,
+}
+
+/// How the robot's moves fail.
+#[derive(Clone, Debug)]
+struct Failures {
+    moves: BumpMoves,
+    share: f64,
+    rng: ChaCha8Rng,
 }
 
 impl<'a> BumpWalk<'a> {
@@ -33,19 +44,39 @@ impl<'a> BumpWalk<'a> {
             sight,
             at: start,
             map: BumpMap::new(sight.look(maze, start)),
+            failures: None,
         }
     }
 
-    /// Moves the robot to `action`, if there is no wall, and lets it learn.
+    /// The same, where a `share` (0 … 1) of the moves along open ways fail as `moves` says: the
+    /// robot stays. The map knows how moves fail, and not how often.
+    #[must_use]
+    pub fn failing(self, moves: BumpMoves, share: f64, rng: ChaCha8Rng) -> Self {
+        Self {
+            map: BumpMap::with_moves(self.sight.look(self.maze, self.at), moves),
+            failures: Some(Failures { moves, share, rng }),
+            ..self
+        }
+    }
+
+    /// Moves the robot to `action`, if there is no wall and the move does not fail, and lets it
+    /// learn.
     ///
     /// # Errors
     /// Never in a maze, whose walls stand still.
     pub fn step(&mut self, action: Direction) -> Result<(), NotStill> {
         let next = self.maze.beside(self.at, action);
-        self.at = next.unwrap_or(self.at);
+        let failures = self.failures.as_mut().filter(|_| next.is_some());
+        let failed = failures.and_then(|failures| {
+            let fails = failures.rng.random_bool(failures.share);
+            fails.then_some(failures.moves)
+        });
+        if failed.is_none() {
+            self.at = next.unwrap_or(self.at);
+        }
         self.map.learn(BumpMove {
             action,
-            moved: next.is_some(),
+            moved: next.is_some() && failed != Some(BumpMoves::MayBump),
             look: self.sight.look(self.maze, self.at),
         })
     }
@@ -91,6 +122,7 @@ impl BumpSight {
 
 #[cfg(test)]
 mod tests {
+    use rand_chacha::rand_core::SeedableRng;
     use tolman_maze::Grid;
 
     use super::*;
@@ -114,7 +146,28 @@ mod tests {
             sight: BumpSight::OpenWays,
             at: Cell::new(0, 0),
             map: learned,
+            failures: None,
         };
         assert!(!other.is_exact(), "its map is of another maze");
+    }
+
+    #[test]
+    fn a_move_that_fails_leaves_the_robot_where_it_is() {
+        let maze = Maze::open(Grid::new(2, 1));
+        let harsh = BumpMoves::MayStay {
+            one_in: 2,
+            unit_steps: false,
+        };
+        for (moves, known) in [(BumpMoves::MayBump, 0), (harsh, 1)] {
+            let walk = BumpWalk::new(&maze, Cell::new(0, 0), BumpSight::None);
+            let mut walk = walk.failing(moves, 1.0, ChaCha8Rng::seed_from_u64(1));
+            walk.step(Direction::East).unwrap();
+            assert_eq!(walk.at, Cell::new(0, 0));
+            let open = Direction::ALL.iter().filter(|action| {
+                let way = walk.map().way(walk.map().start(), **action);
+                matches!(way, BumpWay::To(_))
+            });
+            assert_eq!(open.count(), known);
+        }
     }
 }

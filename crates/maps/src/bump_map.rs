@@ -12,10 +12,15 @@
 //!   (evidence-driven state merging; Lang, Pearlmutter, Price, *Results of the Abbadingo One DFA
 //!   learning competition*, 1998). The most surprising comes first.
 //! - **Doubt**: as soon as a move contradicts the map, it is folded again from the walk.
+//! - **Failures**: where a robot may stay unnoticed, hypotheses about which moves failed go on side
+//!   by side. Each is weighed by the length of its description: one bit for each way that is known,
+//!   log₂ places for each loop, −log₂ of its share for each failure (Rissanen, *Modeling by
+//!   shortest data description*, 1978). Evidence may have misled them, so that from time to time
+//!   the walk is gone over again without any, and folded at its end.
 //!
 //! A map whose ways are all known predicts every move. It is right up to *bisimulation*: places
 //! from which every walk bumps alike are one place of the map, because no walk can part them. The
-//! world has to be still, and each way has to lead back.
+//! world has to be still, and each way has to lead back. What moves are worth, [`BumpMoves`] says.
 //!
 //! ```
 //! use tolman_maps::bump_map::{BumpMap, BumpMove};
@@ -34,18 +39,23 @@
 //! ```
 
 mod advice;
+mod beam;
 mod evidence;
 mod graph;
+mod hypothesis;
+mod moves;
 
-use alloc::vec;
 use alloc::vec::Vec;
 
 use thiserror::Error;
 use tolman_maze::Direction;
 
-use evidence::Evidence;
+use beam::Beam;
 pub use graph::BumpWay;
 use graph::Graph;
+use hypothesis::Hypothesis;
+pub use moves::BumpMoves;
+use moves::{Rate, Tries};
 
 /// Expected number of pairs that are made one although they are not, if places agreed by chance.
 const FALSE_MERGES: f64 = 1e-4;
@@ -55,6 +65,9 @@ const TESTS: usize = 8;
 
 /// Number of places of a map that is not worth folding from the walk again.
 const FEW_PLACES: usize = 32;
+
+/// Number of moves after which the robot begins again for the first time.
+const PATIENCE: usize = 2048;
 
 /// A move of the robot, and what came of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -83,21 +96,19 @@ pub struct NotStill {
 /// A map of places that is learned from actions and bumps.
 #[derive(Clone, Debug)]
 pub struct BumpMap {
-    /// The walk alone: what is one there is one for certain.
-    walked: Graph,
-    /// The same with places that are one by evidence.
-    folded: Graph,
-    at: u32,
+    worth: BumpMoves,
+    /// What the robot holds of its walk, the likeliest first.
+    beam: Beam,
+    /// How often moves failed.
+    rate: Rate,
+    /// Bumps that are not believed yet.
+    tries: Tries,
+    /// All moves, where they may fail unnoticed.
+    walk: Vec<BumpMove>,
+    /// Number of moves until the robot begins again, if its map is not complete.
+    patience: usize,
     last: Direction,
-    /// By place, the way that the robot tried last.
-    tried_last: Vec<Direction>,
     moves: usize,
-    /// Number of moves since the map was folded.
-    waited: usize,
-    /// Number of places when the map was folded from the walk the last time.
-    fewest: usize,
-    /// Number of moves in a row that were predicted.
-    foretold: usize,
 }
 
 impl BumpMap {
@@ -105,177 +116,166 @@ impl BumpMap {
     /// look.
     #[must_use]
     pub fn new(look: u32) -> Self {
-        let mut walked = Graph::default();
-        let at = walked.push(look);
+        Self::with_moves(look, BumpMoves::Certain)
+    }
+
+    /// Returns the map of a robot that has not moved yet, whose moves are worth this much.
+    ///
+    /// Where bumps may be false, how often is learned, and a bump that nobody expected is tried
+    /// again until it is believed: [`advice`](Self::advice) says so. Where the robot may stay
+    /// unnoticed, several hypotheses about which moves failed go on side by side; the map is that
+    /// of the likeliest, and a look back may replace it.
+    #[must_use]
+    pub fn with_moves(look: u32, worth: BumpMoves) -> Self {
+        let unit_steps = matches!(
+            worth,
+            BumpMoves::MayStay {
+                unit_steps: true,
+                ..
+            }
+        );
         Self {
-            folded: walked.clone(),
-            walked,
-            at,
+            worth,
+            beam: Beam::new(Hypothesis::new(look, unit_steps)),
+            rate: Rate::default(),
+            tries: Tries::default(),
+            walk: Vec::new(),
+            patience: PATIENCE,
             last: Direction::North,
-            tried_last: vec![Direction::North],
             moves: 0,
-            waited: 0,
-            fewest: FEW_PLACES,
-            foretold: 0,
         }
     }
 
     /// Takes in a move. O(places), and O(places²) every time when there were half as many moves as
     /// there are places.
     ///
+    /// Where the robot may stay unnoticed, it is O(hypotheses · places²) at times, and O(hypotheses
+    /// · places · moves) when the walk is gone over again. A walk that nothing explains is
+    /// forgotten, and the map begins again.
+    ///
     /// # Errors
-    /// If the move contradicts an earlier one for certain. The map is then unchanged.
+    /// If the move contradicts an earlier one for certain, which it can only where moves do not
+    /// fail. The map is then unchanged.
     pub fn learn(&mut self, step: BumpMove) -> Result<(), NotStill> {
         let contradiction = NotStill {
             number: self.moves + 1,
             action: step.action,
         };
-        let here = self.here();
-        let foretold = self.folded.way(here, step.action) != BumpWay::Untried;
-        let next = self.walk(step).ok_or(contradiction)?;
-        self.walked.keep();
-        if let Some(tried_last) = self.tried_last.get_mut(here as usize) {
-            *tried_last = step.action;
-        }
-        let agrees = if step.moved {
-            if next as usize == self.folded.len() {
-                self.folded.push(step.look);
-                self.tried_last.push(step.action);
+        let learned = match self.worth {
+            BumpMoves::MayStay { .. } => {
+                self.learn_doubtful(step);
+                true
             }
-            self.folded.join(self.at, step.action, next)
-        } else {
-            self.folded.close(here, step.action)
+            BumpMoves::MayBump => !self.believes(step) || self.beam.best.learn(step),
+            BumpMoves::Certain => self.beam.best.learn(step),
         };
-        self.foretold = if foretold && agrees {
-            self.foretold + 1
-        } else {
-            0
-        };
-        (self.at, self.last) = (next, step.action);
-        self.moves += 1;
-        self.waited += 1;
-        self.folded.keep();
-        if !agrees || self.place_count() > 2 * self.fewest {
-            let about = self.place_count();
-            self.folded = self.walked.clone();
-            self.fold_to(about);
-            self.fewest = self.place_count().max(FEW_PLACES);
-        } else if self.waited >= self.place_count() / 2 && self.untried() > 0 {
-            self.fold();
+        if !learned {
+            return Err(contradiction);
         }
+        self.last = step.action;
+        self.moves += 1;
         Ok(())
     }
 
-    /// Writes a move down in the walk, and returns where it led; `None`, with nothing changed, if
-    /// it contradicts the walk.
-    fn walk(&mut self, step: BumpMove) -> Option<u32> {
-        let known = self.walked.way(self.at, step.action);
-        match (known, step.moved) {
-            (BumpWay::Untried, false) => {
-                self.walked.close(self.at, step.action);
-                Some(self.at)
+    /// Takes in a move that the robot may only believe to have made. Begins again if nothing
+    /// explains the walk, or if it took too long, and is then twice as patient (Luby, Sinclair,
+    /// Zuckerman, *Optimal speedup of Las Vegas algorithms*, 1993).
+    fn learn_doubtful(&mut self, step: BumpMove) {
+        let failure = self.worth.failure();
+        self.walk.push(step);
+        let explained = self.beam.learn(&self.walk, failure);
+        let best = &self.beam.best;
+        let late = self.walk.len() > self.patience && best.is_folded() && best.untried() > 0;
+        if !explained || late {
+            self.beam = Beam::new(best.unmoved());
+            self.walk.clear();
+            self.patience *= 2;
+        }
+    }
+
+    /// Takes in that a move may have failed, and returns whether to believe it. What the map
+    /// expects is believed at once, a new wall after several tries. Who went through a wall knows
+    /// better.
+    fn believes(&mut self, step: BumpMove) -> bool {
+        let walked = self.beam.best.walked_way(step.action);
+        if step.moved {
+            let failed = self.tries.end(step.action);
+            self.rate.count(failed);
+            if walked == BumpWay::Closed {
+                self.beam.best.reopen(step.action);
             }
-            (BumpWay::Untried, true) => {
-                let next = self.walked.push(step.look);
-                self.walked.join(self.at, step.action, next);
-                Some(next)
+            return true;
+        }
+        match (walked, self.way(self.here(), step.action)) {
+            (_, BumpWay::Closed) => true,
+            (BumpWay::To(_), _) => {
+                self.tries.bump(step.action, self.rate, self.place_count());
+                false
             }
-            (BumpWay::Closed, false) => Some(self.at),
-            (BumpWay::To(next), true) => (self.walked.look(next) == step.look).then_some(next),
-            (BumpWay::Closed, true) | (BumpWay::To(_), false) => None,
+            _ => self.tries.bump(step.action, self.rate, self.place_count()),
         }
     }
 
     /// Looks for places that are one. [`learn`](Self::learn) does so from time to time. O(places²)
     /// and more where many places are alike.
     pub fn fold(&mut self) {
-        self.fold_to(self.place_count());
+        let about = self.place_count();
+        self.beam.best.fold_to(about);
     }
 
-    /// Looks for places that are one, until about `about` of them are left.
-    fn fold_to(&mut self, about: usize) {
-        self.waited = 0;
-        let evidence = Evidence::of(&self.walked);
-        while self.fold_once(about, &evidence) {
-            self.folded.shorten();
-        }
-    }
-
-    /// Makes the most surprising pairs one, as long as what was found before still holds. Returns
-    /// whether there was any.
-    fn fold_once(&mut self, about: usize, evidence: &Evidence) -> bool {
-        let places: Vec<u32> = self.folded.places().collect();
-        let enough = enough_bits(about.min(places.len()));
-        let mut found = Vec::new();
-        for (number, one) in places.iter().enumerate() {
-            for other in places.iter().take(number) {
-                let bits = self.folded.merge([*other, *one], evidence);
-                self.folded.undo(0);
-                if let Some(bits) = bits.filter(|bits| *bits >= enough) {
-                    found.push((bits, *other, *one));
-                }
-            }
-        }
-        found.sort_by(|one, other| other.0.total_cmp(&one.0));
-        let mut any = false;
-        for (_, one, other) in found {
-            let pair = [one, other].map(|id| self.folded.place(id));
-            if pair[0] != pair[1] {
-                any |= self.folded.merge(pair, evidence).is_some();
-                self.folded.keep();
-            }
-        }
-        any
+    const fn map(&self) -> &Graph {
+        self.beam.best.map()
     }
 
     /// Returns the place where the robot is.
     #[must_use]
     pub fn here(&self) -> u32 {
-        self.folded.place(self.at)
+        self.beam.best.here()
     }
 
-    /// Returns the place where the robot began.
+    /// Returns the place where the robot began, or began again.
     #[must_use]
     pub fn start(&self) -> u32 {
-        self.folded.place(0)
+        self.map().place(0)
     }
 
     /// Returns all places.
     pub fn places(&self) -> impl Iterator<Item = u32> + '_ {
-        self.folded.places()
+        self.map().places()
     }
 
     /// Returns the number of places.
     #[must_use]
     pub const fn place_count(&self) -> usize {
-        self.folded.count()
+        self.map().count()
     }
 
     /// Returns what is known of a way out of a place, and where it leads. A place that is not on
     /// the map has only untried ways.
     #[must_use]
     pub fn way(&self, place: u32, action: Direction) -> BumpWay {
-        self.folded.way(place, action)
+        self.map().way(place, action)
     }
 
     /// Returns the number of ways that nobody tried. With none the map is complete. O(places).
     #[must_use]
     pub fn untried(&self) -> usize {
-        let ways = self.places().flat_map(|place| self.folded.ways(place));
-        ways.filter(|way| *way == BumpWay::Untried).count()
+        self.beam.best.untried()
     }
 
     /// Returns how many moves in a row, up to the last, the map predicted.
     #[must_use]
     pub const fn predicted(&self) -> usize {
-        self.foretold
+        self.beam.best.foretold
     }
 
     /// Returns whether the map is complete and probably right: it has predicted the last moves,
-    /// eight for each place, which is twice as many as there are ways. O(places).
+    /// eight for each place, which is twice as many as there are ways, and no failure more would
+    /// explain them as well. O(places).
     #[must_use]
     pub fn is_tested(&self) -> bool {
-        self.foretold >= TESTS * self.place_count() && self.untried() == 0
+        let sure = self.beam.is_sure(self.worth.failure());
+        sure && self.predicted() >= TESTS * self.place_count() && self.untried() == 0
     }
 
     /// Returns the number of moves.

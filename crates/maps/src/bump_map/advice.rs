@@ -9,18 +9,30 @@ impl BumpMap {
     /// Returns where to go to learn more: to the nearest way that nobody tried, straight on where
     /// it makes no difference. On a complete map to all ways in turn, which tests it. O(places).
     ///
+    /// Where moves may fail, first of all to the same way again if a bump is not believed yet, and
+    /// on the shortest walk that tells the likeliest hypotheses apart as soon as one failure more
+    /// is less likely than that the best is wrong.
+    ///
     /// Straight on, because a robot that turns at each place meets few walls, and walls are what
     /// places differ by.
     #[must_use]
     pub fn advice(&self) -> Direction {
+        if let Some(again) = self.tries.again() {
+            return again;
+        }
+        if self.beam.doubt() > libm::exp2(-self.worth.failure())
+            && let Some(telling) = self.beam.telling()
+        {
+            return telling;
+        }
         let here = self.here();
         // For each place, the first action of the way there.
-        let mut first = vec![None; self.folded.len()];
+        let mut first = vec![None; self.map().len()];
         let mut queue = VecDeque::from([here]);
         while let Some(place) = queue.pop_front() {
             let begin = first.get(place as usize).copied().flatten();
             for action in self.preferred() {
-                match self.folded.way(place, action) {
+                match self.map().way(place, action) {
                     BumpWay::Closed => {}
                     BumpWay::Untried => return begin.unwrap_or(action),
                     BumpWay::To(next) => {
@@ -51,7 +63,7 @@ impl BumpMap {
     /// criticality*, 1996). But on a wrong map it could go round in the world forever without a
     /// contradiction.
     fn in_turn(&self) -> Direction {
-        let before = self.tried_last.get(self.here() as usize);
+        let before = self.beam.best.tried_last.get(self.here() as usize);
         let next = before.copied().unwrap_or(self.last).right();
         if self.coin() { next } else { next.right() }
     }

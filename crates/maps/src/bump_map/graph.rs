@@ -126,6 +126,11 @@ impl Graph {
         true
     }
 
+    /// Forgets that a way is closed.
+    pub(super) fn reopen(&mut self, place: u32, action: Direction) {
+        self.set(self.place(place), action.index(), BumpWay::Untried);
+    }
+
     /// Learns that a way leads from one place to another, and so back; `false` if that contradicts
     /// what is known.
     pub(super) fn join(&mut self, from: u32, action: Direction, to: u32) -> bool {

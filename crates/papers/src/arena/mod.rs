@@ -20,7 +20,7 @@ use tolman_replay::Replay;
 pub(crate) use self::records::LearnRun;
 use self::records::{HomeRun, LocateRun};
 use self::rows::{ALL, Held, RowName};
-pub(crate) use self::worlds::drawn;
+pub(crate) use self::worlds::{drawn, drawn_sized};
 use crate::rows::row_of;
 use tolman_film::Film;
 

@@ -18,10 +18,26 @@ pub(crate) fn drawn(
     size: FamilySize,
     rng: &mut ChaCha8Rng,
 ) -> Result<Maze, BoxError> {
-    let families = Family::all();
-    let family =
-        Family::named(&families, family).ok_or_else(|| format!("there is no family {family:?}"))?;
+    let family = family_of(family)?;
     (family.draw)(family.size(size), rng)
+}
+
+/// Draws a world of the family with `size` columns and rows.
+///
+/// # Errors
+/// If there is no such family, or it has no world of this size.
+pub(crate) fn drawn_sized(
+    family: &str,
+    size: (u16, u16),
+    rng: &mut ChaCha8Rng,
+) -> Result<Maze, BoxError> {
+    (family_of(family)?.draw)(size, rng)
+}
+
+fn family_of(name: &str) -> Result<Family, BoxError> {
+    let families = Family::all();
+    let family = Family::named(&families, name);
+    Ok(*family.ok_or_else(|| format!("there is no family {name:?}"))?)
 }
 
 /// Returns a maze with its start, or else with a random one, at which all systems begin.
