@@ -50,6 +50,7 @@ mod mind;
 pub mod mms;
 pub mod mslst;
 pub mod oracle;
+mod named_map;
 mod outing;
 pub mod pioneer;
 pub mod registry;

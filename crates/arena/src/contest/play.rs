@@ -107,6 +107,8 @@ pub struct LearnRecord {
     /// Probability that the system's map is right, by its own estimate, 0 … 1; `None` if the system
     /// gives no estimate.
     pub certainty: Option<f64>,
+    /// Reason of the system to doubt its map; `None` if it sees none.
+    pub doubt: Option<String>,
     /// Quality of the system's map, compared with the truth.
     pub judgement: MapJudgement,
     /// The judge's evidence.
@@ -125,7 +127,40 @@ pub struct LearnRecord {
     pub thinking: Option<Duration>,
 }
 
+impl ContestRecord {
+    /// Returns why the contestant did not do all of its tasks, in its own words: the first reason,
+    /// in a sentence without a full stop; `None` if it sees none.
+    #[must_use]
+    pub fn complaint(&self) -> Option<&str> {
+        let learned = self.learned.iter().filter_map(LearnRecord::complaint);
+        let lost = self.found.iter().filter_map(|found| match &found.outcome {
+            LocateOutcome::Abstained { why } => Some(why.as_str()),
+            LocateOutcome::Right | LocateOutcome::Wrong => None,
+        });
+        let homes = self.homes.iter().map(|home| home.gave_up.as_str());
+        let mut whys = learned.chain(lost).chain(homes);
+        whys.find(|why| !why.is_empty())
+    }
+
+    /// Returns how good its map is, to find the worst: 0 is the worst, and a right map is above 1.
+    /// `None` if it learned none.
+    #[must_use]
+    pub fn goodness(&self) -> Option<f64> {
+        let judged = self.learned.as_ref()?.judgement;
+        let both = judged.link_recall * judged.link_precision.unwrap_or(0.0);
+        Some(both + if judged.is_right { 1.0 } else { 0.0 })
+    }
+}
+
 impl LearnRecord {
+    /// Returns why the system gave up or doubts its map, in a sentence without a full stop; `None`
+    /// if it does neither.
+    #[must_use]
+    pub fn complaint(&self) -> Option<&str> {
+        let gave_up = Some(self.end.why()).filter(|why| !why.is_empty());
+        gave_up.or(self.doubt.as_deref())
+    }
+
     /// Returns the probability that the map is right by the system's own verdict, 0 … 1. It is the
     /// system's estimate if it claims something, and ½ if it is undecided.
     #[must_use]
@@ -302,6 +337,9 @@ impl Contest<'_> {
                 with_true_map,
                 ..put
             });
+            if self.contestant.facts().watches {
+                continue;
+            }
             let home = bout
                 .home(there, &mut watch)
                 .map_err(|e| self.put_error(e))?;
@@ -680,6 +718,7 @@ impl Bout {
         LearnRecord {
             claim: Claim::of(&driven.end, self.claims, &*self.outing),
             certainty,
+            doubt: self.outing.doubt(),
             end: driven.end,
             judgement,
             evidence,

@@ -9,7 +9,7 @@ mod rows;
 mod verdicts;
 mod worlds;
 
-use tolman_arena::contest::{Condition, Contest, Moment};
+use tolman_arena::contest::{Condition, Contest, ContestError, Moment};
 use tolman_arena::registry::{RobotEntry, Schooling};
 use tolman_draw::Figure;
 use tolman_experiment::{
@@ -158,26 +158,36 @@ impl Procedure for Arena {
             CONDITIONS_TABLE => (self.world_of_condition(job.run)?, rows::condition_of(&row)?),
             _ => (self.world(&row, job.run)?, Condition::AsMade),
         };
-        let mut film: Option<Film> = None;
-        let mut replay = None;
         let title = format!("{}, run {}", job.row, job.run);
         let contest = Contest {
             condition,
             ..world.contest(row.contestant, robot)
         };
-        contest.play(&self.schooling, |outing, moment| {
-            match (moment, &mut film) {
-                (Moment::Over, film) => {
-                    let film = film.take();
-                    replay = film.map(|film| film.replay(outing, title.clone()));
-                }
-                (Moment::PutDown, Some(film)) => film.lifted(outing),
-                (_, Some(film)) => film.see(outing),
-                (_, none) => *none = Some(Film::new(outing)),
-            }
-        })?;
-        Ok(replay.map(|replay| replay.fact("seed", world.seed.to_string())))
+        Ok(filmed(&contest, &self.schooling, title)?)
     }
+}
+
+/// Returns a replay of a contest; `None` if the contestant abstains or is a baseline.
+///
+/// # Errors
+/// [`ContestError`].
+pub fn filmed(
+    contest: &Contest<'_>,
+    schooling: &Schooling,
+    title: String,
+) -> Result<Option<Replay>, ContestError> {
+    let mut film: Option<Film> = None;
+    let mut replay = None;
+    contest.play(schooling, |outing, moment| match (moment, &mut film) {
+        (Moment::Over, film) => {
+            let film = film.take();
+            replay = film.map(|film| film.replay(outing, title.clone()));
+        }
+        (Moment::PutDown, Some(film)) => film.lifted(outing),
+        (_, Some(film)) => film.see(outing),
+        (_, none) => *none = Some(Film::new(outing)),
+    })?;
+    Ok(replay.map(|replay| replay.fact("seed", contest.seed.to_string())))
 }
 
 fn no_row(job: &Job<'_>) -> BoxError {

@@ -1,5 +1,6 @@
 //! `tolman arena`: sends systems into worlds of every kind and compares their maps with the truth.
 
+mod programs;
 mod verdicts;
 
 use core::time::Duration;
@@ -14,10 +15,14 @@ use tolman_arena::contest::{
     Claim, Condition, Contest, ContestError, ContestRecord, LearnRecord, LocateOutcome,
 };
 use tolman_arena::registry::{Registry, RobotEntry, Schooling, SystemEntry, slug};
-use tolman_papers::arena::{ArenaWorld, DrawnWorld};
+use anyhow::anyhow;
+use tolman_papers::arena::{ArenaWorld, DrawnWorld, filmed};
 
+use self::programs::Programs;
 use super::failure::note;
-use super::{App, OrBadInput, Result, Unboxed, unknown};
+use super::outputs::{self, Output};
+use super::replay_file::{self, Overwrite};
+use super::{App, Failure, OrBadInput, Result, Unboxed, unknown};
 
 /// A system or baseline of the arena.
 type Contestant = &'static dyn SystemEntry;
@@ -45,9 +50,11 @@ pub(super) struct Arguments {
     /// The same as MAZE
     #[arg(long = "maze", value_name = "FILE|DIR")]
     maze_files: Vec<PathBuf>,
-    /// System to send, or `all`
-    #[arg(long, value_name = "NAME", default_value = "all")]
-    system: String,
+    /// System to send, or `all`; by default all, unless a program is given
+    #[arg(long, value_name = "NAME")]
+    system: Option<String>,
+    #[command(flatten)]
+    programs: Programs,
     /// Robot that carries the systems, or `own` for the one that each is made for
     #[arg(long, value_name = "NAME", default_value = "own")]
     robot: String,
@@ -79,9 +86,16 @@ pub(super) struct Arguments {
     /// Measure the system's own computing time per time step of learning; plays one world at a time
     #[arg(long)]
     cost: bool,
+    /// Write a replay of the world with the worst map: one HTML file that plays in any browser.
+    /// It needs a single contestant
+    #[arg(long, value_name = "FILE", value_parser = outputs::file(outputs::REPLAYS))]
+    replay: Option<Output>,
+    /// Overwrite the replay's file even if it is not a replay
+    #[arg(long, requires = "replay")]
+    force: bool,
     /// Judge what systems say about their own maps, on 100 right and 100 wrong maps; worlds become
     /// harder while most maps are right
-    #[arg(long, conflicts_with_all = ["mazes", "maze_files", "json", "cost", "condition", "starts"])]
+    #[arg(long, conflicts_with_all = ["mazes", "maze_files", "json", "cost", "condition", "starts", "replay"])]
     own_verdict: bool,
 }
 
@@ -103,6 +117,8 @@ struct Line<'a> {
     world: &'a str,
     seed: u64,
     abstained: Option<&'a str>,
+    /// Why the contestant did not do all that was asked of it, in its own words.
+    why: Option<&'a str>,
     right: Option<bool>,
     right_of_visited: Option<bool>,
     /// Verdict of the system on its own map.
@@ -124,7 +140,8 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
         "own" => None,
         name => Some(app.robot(name)?),
     };
-    let contestants = contestants(app, &arguments.system)?;
+    let contestants = arguments.contestants(app)?;
+    arguments.check_replay(&contestants)?;
     if arguments.own_verdict {
         return verdicts::judge(arguments, &contestants, robot, &arguments.kinds(app)?, out);
     }
@@ -135,19 +152,28 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
         .flat_map(|contestant| worlds.iter().map(|world| (*contestant, world)))
         .collect();
     let schooling = Schooling::default();
-    let play = |(contestant, world): &(Contestant, &DrawnWorld)| {
-        let contest = Contest {
+    let contest = |number: usize| -> Option<Contest<'_>> {
+        let (contestant, world) = jobs.get(number)?;
+        Some(Contest {
             condition,
             stopwatch: arguments.cost.then_some(stopwatch),
             ..world.contest(*contestant, robot)
-        };
-        contest.play(&schooling, |_, _| {})
+        })
     };
+    let play = |number| contest(number).map(|contest| contest.play(&schooling, |_, _| {}));
     let held: Result<Vec<ContestRecord>, ContestError> = match arguments.cost {
-        true => jobs.iter().map(play).collect(),
-        false => jobs.par_iter().map(play).collect(),
+        true => (0..jobs.len()).filter_map(play).collect(),
+        false => (0..jobs.len()).into_par_iter().filter_map(play).collect(),
     };
     let held = held?;
+    if let Some(path) = &arguments.replay {
+        let worst = worst(&held).and_then(contest);
+        let worst = worst.ok_or_else(|| Failure::Failed(anyhow!("there is no map to replay")))?;
+        let title = format!("{} in {}", worst.contestant.title(), worst.name);
+        if let Some(replay) = filmed(&worst, &schooling, title)? {
+            replay_file::write(path, replay, Overwrite::if_forced(arguments.force))?;
+        }
+    }
     if arguments.json {
         for ((contestant, world), record) in jobs.iter().zip(&held) {
             let line = line(*contestant, robot, world, record);
@@ -155,13 +181,28 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
         }
         return Ok(());
     }
+    let tell = |out: &mut dyn Write| match &arguments.replay {
+        Some(path) => replay_file::tell(path, out),
+        None => Ok(()),
+    };
     let of_each = held.chunks(worlds.len().max(1));
     let rows: Vec<TableRow<'_>> = contestants.iter().copied().zip(of_each).collect();
     if arguments.cost {
-        return Ok(costs(&rows, out)?);
+        costs(&rows, out)?;
+        return tell(out);
     }
     table(&rows, robot, out)?;
-    Ok(why_not(&rows, &worlds, out)?)
+    why_not(&rows, &worlds, out)?;
+    tell(out)
+}
+
+/// Returns the number of the contest with the worst map, the first of several; `None` if nobody
+/// learned one.
+fn worst(held: &[ContestRecord]) -> Option<usize> {
+    let maps = held.iter().map(ContestRecord::goodness).enumerate();
+    let maps = maps.filter_map(|(number, goodness)| Some((number, goodness?)));
+    let worst = maps.min_by(|a, b| a.1.total_cmp(&b.1));
+    worst.map(|(number, _)| number)
 }
 
 /// A contestant, and its records in all worlds.
@@ -174,9 +215,10 @@ fn or_dash(value: Option<impl ToString>) -> String {
 
 /// Writes the cost of learning for each system, as means over the worlds in which it drove.
 fn costs(rows: &[TableRow<'_>], out: &mut dyn Write) -> io::Result<()> {
+    let width = title_width(rows);
     writeln!(
         out,
-        "{:18} {:>6} {:>12} {:>10} {:>13}",
+        "{:width$} {:>6} {:>12} {:>10} {:>13}",
         "system", "worlds", "time steps", "µs a step", "bytes a place"
     )?;
     for (contestant, records) in rows {
@@ -189,7 +231,7 @@ fn costs(rows: &[TableRow<'_>], out: &mut dyn Write) -> io::Result<()> {
             |part: f64, whole: f64| or_dash((whole > 0.0).then(|| format!("{:.1}", part / whole)));
         writeln!(
             out,
-            "{:18} {:>6} {:>12} {:>10} {:>13}",
+            "{:width$} {:>6} {:>12} {:>10} {:>13}",
             contestant.title(),
             learned.len(),
             steps,
@@ -208,6 +250,12 @@ fn contestants(app: &App, name: &str) -> Result<Vec<Contestant>> {
     Ok(vec![app.system(name, competes)?])
 }
 
+/// Returns the width of the column of names.
+fn title_width(rows: &[TableRow<'_>]) -> usize {
+    let widths = rows.iter().map(|(one, _)| one.title().chars().count());
+    widths.max().unwrap_or(0).max(18)
+}
+
 fn condition(app: &App, name: &str) -> Result<Condition> {
     let known = &app.registry().conditions;
     let mut conditions = known.iter();
@@ -220,6 +268,30 @@ fn condition(app: &App, name: &str) -> Result<Condition> {
 }
 
 impl Arguments {
+    /// Returns the programs, then the systems of `--system`.
+    fn contestants(&self, app: &App) -> Result<Vec<Contestant>> {
+        let mut all = self.programs.contestants()?;
+        match &self.system {
+            Some(name) => all.extend(contestants(app, name)?),
+            None if self.programs.any() => {}
+            None => all.extend(contestants(app, "all")?),
+        }
+        Ok(all)
+    }
+
+    /// Refuses a replay of several contestants, or in place of another file.
+    fn check_replay(&self, contestants: &[Contestant]) -> Result {
+        match &self.replay {
+            Some(path) if contestants.len() == 1 => {
+                replay_file::check(path, Overwrite::if_forced(self.force))
+            }
+            Some(_) => Err(Failure::BadInput(anyhow!(
+                "--replay needs a single contestant: give one of --system, --mapper and --brain"
+            ))),
+            None => Ok(()),
+        }
+    }
+
     fn kinds(&self, app: &App) -> Result<Vec<ArenaWorld>> {
         let paths = [self.mazes.as_slice(), &self.maze_files].concat();
         Ok(match (paths.is_empty(), self.family.as_str()) {
@@ -292,6 +364,7 @@ fn line<'a>(
         world: &world.name,
         seed: world.seed,
         abstained: record.abstained.as_deref(),
+        why: record.complaint(),
         right: judged.map(|judged| judged.is_right),
         right_of_visited: judged.map(|judged| judged.is_right_of_visited),
         says: learned.map(|learned| match learned.claim {
@@ -311,9 +384,10 @@ fn line<'a>(
 
 /// Writes the table with one row for each system.
 fn table(rows: &[TableRow<'_>], robot: Option<RobotEntry>, out: &mut dyn Write) -> io::Result<()> {
+    let width = title_width(rows);
     writeln!(
         out,
-        "{:18} {:13} {:>6} {:>9} {:>5} {:>7} {:>6} {:>7} {:>13}",
+        "{:width$} {:13} {:>6} {:>9} {:>5} {:>7} {:>6} {:>7} {:>13}",
         "system",
         "robot",
         "worlds",
@@ -336,7 +410,7 @@ fn table(rows: &[TableRow<'_>], robot: Option<RobotEntry>, out: &mut dyn Write) 
         let has_maps = judged().next().is_some();
         writeln!(
             out,
-            "{:18} {:13} {:>6} {:>9} {:>5} {:>7} {:>6} {:>7} {:>13}",
+            "{:width$} {:13} {:>6} {:>9} {:>5} {:>7} {:>6} {:>7} {:>13}",
             contestant.title(),
             carrier(*contestant, robot).title,
             records.len(),
@@ -349,13 +423,14 @@ fn table(rows: &[TableRow<'_>], robot: Option<RobotEntry>, out: &mut dyn Write) 
                 located.count(),
                 found().count()
             ))),
-            format!("{}/{}", came.count(), homes().count()),
+            or_dash((homes().count() > 0).then(|| format!("{}/{}", came.count(), homes().count()))),
         )?;
     }
     Ok(())
 }
 
-/// Writes why each system abstained, one line per system.
+/// Writes why each system abstained, and why it doubts its map or gave up, a line per system and
+/// reason.
 fn why_not(rows: &[TableRow<'_>], worlds: &[DrawnWorld], out: &mut dyn Write) -> io::Result<()> {
     for (contestant, records) in rows {
         let mut abstained = worlds.iter().zip(*records);
@@ -364,6 +439,16 @@ fn why_not(rows: &[TableRow<'_>], worlds: &[DrawnWorld], out: &mut dyn Write) ->
             writeln!(
                 out,
                 "{} abstained, first in {}: {why}",
+                contestant.title(),
+                world.name
+            )?;
+        }
+        let mut learned = worlds.iter().zip(*records);
+        let first = learned.find_map(|(world, r)| Some((world, r.learned.as_ref()?.complaint()?)));
+        if let Some((world, why)) = first {
+            writeln!(
+                out,
+                "{} gave up or doubts its map, first in {}: {why}",
                 contestant.title(),
                 world.name
             )?;

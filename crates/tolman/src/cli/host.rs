@@ -18,6 +18,7 @@ use super::looks::Looks;
 use super::send::{ARRIVE, Pursued, send};
 use super::sent_out::{StartOption, setup_of};
 use super::unfinished::{Call, Keeper, Saving};
+use super::words::words;
 use super::{App, Failure, OrBadInput, Result, Unboxed, interrupt, keep};
 use tolman_arena::registry::{RobotEntry, RobotKind, Schooling, Setup, slug};
 
@@ -63,9 +64,10 @@ pub(super) struct Arguments {
     /// Show what the program writes to stderr
     #[arg(long)]
     log: bool,
-    /// Write a sample program in Python, which follows the right-hand wall on a laser-pioneer
-    #[arg(long)]
-    template: bool,
+    /// Write a sample program in Python: `brain` follows the right-hand wall on a laser-pioneer,
+    /// `mapper` watches one and learns its map, for `tolman arena --mapper`
+    #[arg(long, value_name = "KIND", num_args = 0..=1, default_missing_value = "brain", value_parser = words(TEMPLATES))]
+    template: Option<&'static str>,
     #[command(flatten)]
     looks: Looks,
     /// Program and its arguments
@@ -77,8 +79,11 @@ pub(super) struct Arguments {
     program: Vec<String>,
 }
 
-/// Program that `--template` writes.
-const TEMPLATE: &str = include_str!("host/brain.py");
+/// Values of `--template`, with the program that each writes.
+const TEMPLATES: [(&str, &str, &str); 2] = [
+    ("brain", "Drives", include_str!("host/brain.py")),
+    ("mapper", "Watches", include_str!("host/mapper.py")),
+];
 
 /// Returns the group that requires a maze, a world or `--template`.
 fn ground_or_template() -> ArgGroup {
@@ -87,8 +92,8 @@ fn ground_or_template() -> ArgGroup {
 }
 
 pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -> Result {
-    if arguments.template {
-        return Ok(out.write_all(TEMPLATE.as_bytes())?);
+    if let Some(template) = arguments.template {
+        return Ok(out.write_all(template.as_bytes())?);
     }
     let world = arguments.ground.read()?;
     let robot = match &arguments.robot {
@@ -162,7 +167,7 @@ impl Arguments {
             robot: slug(facts.name),
             radius: facts.body.radius(),
             step_us: facts.step_us,
-            step_limit: self.steps,
+            step_limit: Some(self.steps),
             corridor_width: course.corridor_width,
         };
         let brain = ForeignBrain::start(launch, self.budget(), hello)?;
