@@ -11,6 +11,8 @@ mod contest;
 mod cpm;
 mod entry;
 mod episodes;
+#[cfg(unix)]
+mod foreign;
 mod gngslam;
 mod laser_diktiometry;
 mod noisy_mouse;

@@ -125,3 +125,45 @@ fn what_a_system_makes_of_its_maps_is_judged_by_right_and_wrong_ones() {
     assert!(table.contains("too few: 100 right"), "{table}");
     assert_eq!(tolman(&arguments).done(), table);
 }
+
+#[test]
+#[cfg(unix)]
+fn a_mapper_in_another_language_has_its_row_beside_one_that_crashes() {
+    if std::process::Command::new("python3").arg("-V").output().is_err() {
+        // Past the test harness, which would keep it to itself.
+        let _ =
+            std::io::Write::write_all(&mut std::io::stderr(), b"SKIPPED: python3 is not there\n");
+        return;
+    }
+    let folder = folder("arena-mapper");
+    let mapper = tolman(&["host", "--template", "mapper"]).done();
+    std::fs::write(folder.join("mine.py"), mapper).unwrap();
+    std::fs::write(folder.join("bad.py"), "raise SystemExit(7)").unwrap();
+    let [mine, bad] = ["python3 mine.py", "python3 bad.py"];
+    let star = ["arena", "--family", "star", "--worlds", "1"];
+    let arena = |more: &[&str]| tolman_in(&folder, &[&star[..], more].concat()).done();
+    let alone = arena(&["--mapper", mine, "--replay", "worst.html"]);
+    let row = alone.lines().find(|line| line.starts_with(mine)).unwrap();
+    let columns: Vec<&str> = row.split_whitespace().collect();
+    assert_eq!(columns[2..], ["laser", "Pioneer", "1", "0", "1", "1", "1.00", "0/1", "–"]);
+    assert!(alone.contains("replay: file://"), "{alone}");
+    let page = std::fs::read_to_string(folder.join("worst.html")).unwrap();
+    assert!(page.contains("python3 mine.py in star 0"));
+    let both = arena(&["--mapper", bad, "--mapper", mine, "--brain", bad]);
+    assert!(both.contains(row), "{both}");
+    let why = "python3 bad.py gave up or doubts its map, first in star 0: the program ended with exit status: 7";
+    assert_eq!(both.matches(why).count(), 2, "{both}");
+    let json = arena(&["--mapper", bad, "--json"]);
+    let line: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(line["why"], "the program ended with exit status: 7");
+    assert_eq!((&line["right"], &line["says"]), (&false.into(), &"wrong".into()));
+}
+
+#[test]
+fn a_program_that_is_not_there_is_refused() {
+    tolman(&["arena", "--mapper", "no-such-program mine.py"])
+        .refused(2, &["there is no program no-such-program"]);
+    tolman(&["arena", "--brain", "'python3 mine.py"]).refused(2, &["a quotation mark"]);
+    tolman(&["arena", "--mapper", ""]).refused(2, &["--mapper is empty"]);
+    tolman(&["arena", "--replay", "worst.html"]).refused(2, &["a single contestant"]);
+}

@@ -74,6 +74,17 @@ fn the_guide_shows_the_brain_that_the_command_writes() {
 }
 
 #[test]
+fn the_example_is_the_mapper_that_the_command_writes() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mapper = tolman(&["host", "--template", "mapper"]).done();
+    assert!(mapper.lines().count() <= 40);
+    let example = std::fs::read_to_string(root.join("crates/python/examples/mapper.py"));
+    assert_eq!(example.unwrap(), mapper);
+    let guide = std::fs::read_to_string(root.join("docs/arena.md")).unwrap();
+    assert!(guide.contains(&format!("```python\n{mapper}```")));
+}
+
+#[test]
 fn a_program_is_told_of_its_robot_and_hears_each_time_step() {
     let script = "read -r hello; echo \"$hello\" >&2\n\
                   for turn in 0.1 0.2; do read -r seen; echo \"{\\\"turn\\\": $turn, \\\"translate\\\": 0}\"; done\n\
