@@ -9,6 +9,7 @@
 mod claim;
 mod condition;
 mod evidence;
+mod floor;
 mod floor_graph;
 mod ideal;
 mod judgement;
@@ -27,6 +28,7 @@ pub use claim::Claim;
 pub use condition::Condition;
 pub(crate) use condition::with_door;
 pub use evidence::{Evidence, TrueVisits};
+pub use floor::FloorContest;
 pub use judgement::MapJudgement;
 pub use play::{
     Contest, ContestError, ContestRecord, Home, LearnRecord, LocateOutcome, Located, Moment,

@@ -261,11 +261,11 @@ pub struct Home {
     pub gave_up: String,
 }
 
-const START_STREAM: u64 = 31;
+pub(super) const START_STREAM: u64 = 31;
 const KIDNAPPING_STREAM: u64 = 34;
 
 /// Initial limit of time steps, before the contest [allows](Outing::allow) more.
-const NO_STEPS: u32 = 0;
+pub(super) const NO_STEPS: u32 = 0;
 
 /// Share of the length of all corridors after which a robot is kidnapped.
 const KIDNAPPED_AT: f64 = 0.5;
@@ -491,7 +491,12 @@ pub(super) struct Bout {
     /// Whether a door is shut after the robot has learned.
     has_door: bool,
     truth: TrueGraph,
-    observer: IdealObserver,
+    /// The passive bound of localizing; `None` in a free world.
+    observer: Option<IdealObserver>,
+    /// Length of all corridors, m.
+    length: f64,
+    /// Distance of two places of a drawing that lie next to each other, m.
+    pub(super) unit: f64,
     claims: bool,
     pub(super) squares: Squares,
     pub(super) outing: Box<dyn Outing>,
@@ -542,13 +547,34 @@ pub(super) struct Driven {
 
 impl Bout {
     pub(super) fn new(contest: &Contest<'_>, outing: Box<dyn Outing>) -> Self {
+        let squares = Squares::of(outing.course());
         Self {
             maze: contest.maze.clone(),
             has_door: contest.door().is_some(),
             truth: TrueGraph::of(contest.maze, contest.contestant.facts().places),
-            observer: contest.observer(outing.course()),
+            observer: Some(contest.observer(outing.course())),
+            length: contest.maze.corridor_count() as f64 * squares.pitch,
+            unit: squares.pitch,
             claims: contest.contestant.facts().claims,
-            squares: Squares::of(outing.course()),
+            squares,
+            outing,
+            is_lifted: false,
+            sites: Sites::default(),
+        }
+    }
+
+    /// Returns a contestant in a free world.
+    pub(super) fn in_floor(contestant: &dyn SystemEntry, outing: Box<dyn Outing>) -> Self {
+        let (course, facts) = (outing.course(), contestant.facts());
+        Self {
+            maze: course.maze.clone(),
+            has_door: false,
+            truth: TrueGraph::of_course(course, facts.places),
+            observer: None,
+            length: course.corridor_metres(),
+            unit: course.corridor_width,
+            claims: facts.claims,
+            squares: Squares::of(course),
             outing,
             is_lifted: false,
             sites: Sites::default(),
@@ -571,7 +597,10 @@ impl Bout {
         // The path does not show that the robot was lifted: its last pose is where that happened.
         let from = self.outing.path().len() - usize::from(!self.is_lifted);
         self.is_lifted = false;
-        let cells = self.maze.reachable().count() as u32;
+        let cells = match self.observer {
+            Some(_) => self.maze.reachable().count() as u32,
+            None => libm::ceil(self.length / self.unit) as u32,
+        };
         self.outing.allow(cells.saturating_mul(STEPS_A_CELL));
         Pursuit {
             task,
@@ -616,7 +645,7 @@ impl Bout {
         }
         pursuit.until = pursuit.until.max(last);
         pursuit.idle += 1;
-        if pursuit.driven - pursuit.before_last >= self.squares.pitch {
+        if pursuit.driven - pursuit.before_last >= self.unit {
             (pursuit.before_last, pursuit.idle) = (pursuit.driven, 0);
         }
         match standing {
@@ -674,13 +703,13 @@ impl Bout {
     }
 
     /// Returns the length of all corridors, m.
-    pub(super) fn corridors(&self) -> f64 {
-        self.maze.corridor_count() as f64 * self.squares.pitch
+    pub(super) const fn corridors(&self) -> f64 {
+        self.length
     }
 
     /// Returns the unit of [`LearnRecord::driven`], m.
     pub(super) fn scale(&self) -> f64 {
-        self.corridors().max(self.squares.pitch)
+        self.corridors().max(self.unit)
     }
 
     pub(super) fn learn(
@@ -712,7 +741,10 @@ impl Bout {
     pub(super) fn learned(&mut self, driven: Driven, been: TrueVisits) -> LearnRecord {
         let map = self.outing.map();
         let evidence = been.evidence(&*self.outing, driven.from);
-        let judgement = evidence.judge(&map, &self.truth);
+        let mut judgement = evidence.judge(&map, &self.truth);
+        if evidence.is_chart(&map, self.outing.course()) {
+            (judgement.is_right, judgement.is_right_of_visited) = (true, true);
+        }
         self.sites = Sites::of(&map, evidence.cells(), self.squares);
         let certainty = self.outing.certainty();
         LearnRecord {
@@ -747,7 +779,7 @@ impl Bout {
         self.outing.lift(pose)
     }
 
-    fn locate(
+    pub(super) fn locate(
         &mut self,
         start: (Cell, Direction),
         watch: &mut impl FnMut(&dyn Outing, Moment),
@@ -757,7 +789,7 @@ impl Bout {
         }
         watch(&*self.outing, Moment::PutDown);
         let pursuit = self.begin_to_localize();
-        let (sites, near) = (self.sites.clone(), NEAR * self.squares.pitch);
+        let (sites, near) = (self.sites.clone(), NEAR * self.unit);
         let mut chances = Vec::new();
         let driven = self.pursue(pursuit, |outing, before| {
             if chances.len() < Located::WATCHED {
@@ -767,10 +799,11 @@ impl Bout {
             watch(outing, Moment::Acted);
         });
         let path = &self.outing.path()[driven.from..];
-        let ceiling = self.observer.after(self.squares, start, path);
+        let observer = self.observer.as_ref();
+        let ceiling = observer.map(|observer| observer.after(self.squares, start, path));
         Ok(Located {
             outcome: self.outcome(driven.end),
-            ceiling: Some(ceiling),
+            ceiling,
             chances,
             with_true_map: None,
         })
@@ -793,18 +826,25 @@ impl Bout {
         let site = place.and_then(|place| self.sites.of_place(place));
         let off = site.map(|site| (site - self.here()).norm());
         match off {
-            Some(off) if off < NEAR * self.squares.pitch => LocateOutcome::Right,
+            Some(off) if off < NEAR * self.unit => LocateOutcome::Right,
             _ => LocateOutcome::Wrong,
         }
     }
 
-    fn home(
+    /// Returns the length of the shortest way from a cell to the goal, m.
+    fn metres_to_goal(&self, from: Cell) -> f64 {
+        match &self.observer {
+            Some(observer) => observer.maze.metres_to_goal(from, self.squares.pitch),
+            None => self.maze.metres_to_goal(from, self.squares.pitch),
+        }
+    }
+
+    pub(super) fn home(
         &mut self,
         start: (Cell, Direction),
         watch: &mut impl FnMut(&dyn Outing, Moment),
     ) -> Result<Home, BoxError> {
-        let maze = &self.observer.maze;
-        let shortest = maze.metres_to_goal(start.0, self.squares.pitch);
+        let shortest = self.metres_to_goal(start.0);
         if let Standing::GaveUp { why } = self.put_down(start)? {
             return Ok(Home {
                 over_shortest: None,

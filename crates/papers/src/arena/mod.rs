@@ -9,7 +9,8 @@ mod rows;
 mod verdicts;
 mod worlds;
 
-use tolman_arena::contest::{Condition, Contest, ContestError, Moment};
+use tolman_arena::Outing;
+use tolman_arena::contest::{Condition, Contest, ContestError, ContestRecord, Moment};
 use tolman_arena::registry::{RobotEntry, Schooling};
 use tolman_draw::Figure;
 use tolman_experiment::{
@@ -25,7 +26,7 @@ use crate::rows::row_of;
 use tolman_film::Film;
 
 pub use verdicts::{PoolJudgement, PoolRound, RungJudgement, VerdictPool};
-pub use worlds::{ArenaWorld, DrawnWorld};
+pub use worlds::{ArenaWorld, DrawnWorld, OthersWorlds, world_of_map};
 
 /// Entry in the catalogue.
 pub(super) const ENTRY: Entry = Entry {
@@ -163,22 +164,23 @@ impl Procedure for Arena {
             condition,
             ..world.contest(row.contestant, robot)
         };
-        Ok(filmed(&contest, &self.schooling, title)?)
+        let replay = filmed(title, |watch| contest.play(&self.schooling, watch))?;
+        Ok(replay.map(|replay| replay.fact("seed", world.seed.to_string())))
     }
 }
 
-/// Returns a replay of a contest; `None` if the contestant abstains or is a baseline.
+/// Returns a replay of a contest, which `play` holds before a viewer; `None` if the contestant
+/// abstains or is a baseline.
 ///
 /// # Errors
-/// [`ContestError`].
+/// That of `play`.
 pub fn filmed(
-    contest: &Contest<'_>,
-    schooling: &Schooling,
     title: String,
+    play: impl FnOnce(&mut dyn FnMut(&dyn Outing, Moment)) -> Result<ContestRecord, ContestError>,
 ) -> Result<Option<Replay>, ContestError> {
     let mut film: Option<Film> = None;
     let mut replay = None;
-    contest.play(schooling, |outing, moment| match (moment, &mut film) {
+    play(&mut |outing, moment| match (moment, &mut film) {
         (Moment::Over, film) => {
             let film = film.take();
             replay = film.map(|film| film.replay(outing, title.clone()));
@@ -187,7 +189,7 @@ pub fn filmed(
         (_, Some(film)) => film.see(outing),
         (_, none) => *none = Some(Film::new(outing)),
     })?;
-    Ok(replay.map(|replay| replay.fact("seed", contest.seed.to_string())))
+    Ok(replay)
 }
 
 fn no_row(job: &Job<'_>) -> BoxError {

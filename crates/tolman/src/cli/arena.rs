@@ -11,15 +11,16 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 use serde::Serialize;
+use tolman_arena::Outing;
 use tolman_arena::contest::{
-    Claim, Condition, Contest, ContestError, ContestRecord, LearnRecord, LocateOutcome,
+    Claim, Condition, Contest, ContestError, ContestRecord, LearnRecord, LocateOutcome, Moment,
 };
 use tolman_arena::registry::{Registry, RobotEntry, Schooling, SystemEntry, slug};
-use anyhow::anyhow;
+use anyhow::{Error, anyhow};
 use tolman_papers::arena::{ArenaWorld, DrawnWorld, filmed};
 
 use self::programs::Programs;
-use super::failure::note;
+use super::failure::{note, told};
 use super::outputs::{self, Output};
 use super::replay_file::{self, Overwrite};
 use super::{App, Failure, OrBadInput, Result, Unboxed, unknown};
@@ -44,7 +45,8 @@ Examples:
   tolman arena --system micromouse --own-verdict --worlds 3
   tolman arena --system diktiometry-better --robot laser-pioneer --worlds 1")]
 pub(super) struct Arguments {
-    /// Maze files, or folders of them, to use instead of the families
+    /// Files of mazes in any format and of worlds of free walls (.json, or the .yaml of a ROS map),
+    /// or folders of them, to use instead of the families
     #[arg(value_name = "MAZE")]
     mazes: Vec<PathBuf>,
     /// The same as MAZE
@@ -147,30 +149,32 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     }
     let condition = condition(app, &arguments.condition)?;
     let worlds = arguments.worlds(app)?;
-    let jobs: Vec<(Contestant, &DrawnWorld)> = contestants
+    let jobs: Vec<Job<'_>> = contestants
         .iter()
         .flat_map(|contestant| worlds.iter().map(|world| (*contestant, world)))
         .collect();
     let schooling = Schooling::default();
-    let contest = |number: usize| -> Option<Contest<'_>> {
-        let (contestant, world) = jobs.get(number)?;
-        Some(Contest {
+    let hold = |(contestant, world): Job<'_>, watch: &mut dyn FnMut(&dyn Outing, Moment)| {
+        let contest = Contest {
             condition,
             stopwatch: arguments.cost.then_some(stopwatch),
-            ..world.contest(*contestant, robot)
-        })
+            ..world.contest(contestant, robot)
+        };
+        world.hold(&contest, &schooling, watch)
     };
-    let play = |number| contest(number).map(|contest| contest.play(&schooling, |_, _| {}));
+    let play = |job: &Job<'_>| hold(*job, &mut |_, _| {});
     let held: Result<Vec<ContestRecord>, ContestError> = match arguments.cost {
-        true => (0..jobs.len()).filter_map(play).collect(),
-        false => (0..jobs.len()).into_par_iter().filter_map(play).collect(),
+        true => jobs.iter().map(play).collect(),
+        false => jobs.par_iter().map(play).collect(),
     };
     let held = held?;
     if let Some(path) = &arguments.replay {
-        let worst = worst(&held).and_then(contest);
+        let worst = worst(&held).and_then(|worst| jobs.get(worst));
         let worst = worst.ok_or_else(|| Failure::Failed(anyhow!("there is no map to replay")))?;
-        let title = format!("{} in {}", worst.contestant.title(), worst.name);
-        if let Some(replay) = filmed(&worst, &schooling, title)? {
+        let title = format!("{} in {}", worst.0.title(), worst.1.name);
+        let replay = filmed(title, |watch| hold(*worst, watch))?;
+        if let Some(replay) = replay {
+            let replay = replay.fact("seed", worst.1.seed.to_string());
             replay_file::write(path, replay, Overwrite::if_forced(arguments.force))?;
         }
     }
@@ -204,6 +208,9 @@ fn worst(held: &[ContestRecord]) -> Option<usize> {
     let worst = maps.min_by(|a, b| a.1.total_cmp(&b.1));
     worst.map(|(number, _)| number)
 }
+
+/// A contestant, and a world for it.
+type Job<'a> = (Contestant, &'a DrawnWorld);
 
 /// A contestant, and its records in all worlds.
 type TableRow<'a> = (Contestant, &'a [ContestRecord]);
@@ -296,20 +303,28 @@ impl Arguments {
         let paths = [self.mazes.as_slice(), &self.maze_files].concat();
         Ok(match (paths.is_empty(), self.family.as_str()) {
             (false, _) => {
-                let files = ArenaWorld::of_files(&paths).unboxed().or_bad_input()?;
-                for file in &files {
+                let others = ArenaWorld::of_others(&paths).unboxed().or_bad_input()?;
+                for refused in others.refused {
+                    note(&told(&Error::from_boxed(refused)));
+                }
+                for world in &others.worlds {
                     if let ArenaWorld::File {
                         name,
                         width: Some(width),
                         ..
-                    } = file
+                    } = world
                     {
                         note(&format!(
                             "corridor_width = {width} of {name} is ignored: each robot gets corridors of its own width"
                         ));
                     }
                 }
-                files
+                if others.worlds.is_empty() {
+                    return Err(Failure::BadInput(anyhow!(
+                        "there is no maze and no world in what was named: give their files"
+                    )));
+                }
+                others.worlds
             }
             (true, "all") => ArenaWorld::families(),
             (true, name) => vec![ArenaWorld::Family(*app.family(name)?)],
@@ -318,6 +333,13 @@ impl Arguments {
 
     fn worlds(&self, app: &App) -> Result<Vec<DrawnWorld>> {
         let kinds = self.kinds(app)?;
+        let is_changed = slug(&self.condition) != slug(&Condition::AsMade.name());
+        if is_changed && kinds.iter().any(|kind| matches!(kind, ArenaWorld::Floor { .. })) {
+            return Err(Failure::BadInput(anyhow!(
+                "--condition {} changes mazes of cells: leave it out for worlds of free walls",
+                self.condition
+            )));
+        }
         let count = match self.mazes.is_empty() && self.maze_files.is_empty() {
             true => self.worlds.unwrap_or(WORLDS),
             false => 1,
@@ -325,13 +347,25 @@ impl Arguments {
         let mut worlds = Vec::new();
         for kind in &kinds {
             for number in 0..count {
-                let drawn = kind.draw(self.seed, number);
-                let drawn = drawn.unboxed().or_bad_input()?;
+                let drawn = match (kind.draw(self.seed, number).unboxed(), kind) {
+                    (Ok(drawn), _) => drawn,
+                    // The other worlds stand.
+                    (Err(error), ArenaWorld::Floor { .. }) if kinds.len() > 1 => {
+                        note(&told(&error));
+                        continue;
+                    }
+                    (Err(error), _) => return Err(Failure::BadInput(error)),
+                };
                 let starts = self.starts;
                 worlds.push(DrawnWorld { starts, ..drawn });
             }
         }
-        Ok(worlds)
+        match worlds.is_empty() {
+            true => Err(Failure::BadInput(anyhow!(
+                "no world is left: give the file of one into which a robot fits"
+            ))),
+            false => Ok(worlds),
+        }
     }
 }
 

@@ -111,7 +111,7 @@ fn a_program_is_told_of_its_robot_and_hears_each_time_step() {
 #[test]
 fn a_program_that_fails_is_said_to() {
     let early = host_script("host-early", "read -r hello; read -r seen; exit 3\n", &[]);
-    early.refused(1, &["the brain ended with exit status: 3"]);
+    early.refused(1, &["the program ended with exit status: 3"]);
     let nonsense = "read -r hello; read -r seen; echo ahead; read -r seen\n";
     let nonsense = host_script("host-nonsense", nonsense, &[]);
     nonsense.refused(1, &["answer to step 0 is `ahead`", "{\"done\": true}"]);
