@@ -3,9 +3,7 @@
 use tolman_systems::stream;
 
 use super::condition::Condition;
-use super::play::{
-    Bout, ContestError, ContestRecord, Measured, Moment, NO_STEPS, START_STREAM,
-};
+use super::play::{Bout, ContestError, ContestRecord, Measured, Moment, NO_STEPS, START_STREAM};
 use crate::Outing;
 use crate::course::{FreeWorld, Terrain, pick};
 use crate::registry::{Registry, RobotEntry, Schooling, Settings, Setup, SystemEntry};
@@ -52,6 +50,7 @@ impl FloorContest<'_> {
         let mut bout = Bout::in_floor(self.contestant, outing);
         watch(&*bout.outing, Moment::Begun);
         let learned = bout.learn(None, &mut watch);
+        let doubt = bout.outing.doubt();
         let put_error = |source| ContestError::PutDown {
             contestant: self.contestant.title(),
             world: self.name.to_owned(),
@@ -73,6 +72,7 @@ impl FloorContest<'_> {
         Ok(ContestRecord {
             abstained: None,
             learned: Some(learned),
+            doubt,
             found,
             homes,
         })

@@ -91,6 +91,8 @@ pub struct ContestRecord {
     pub abstained: Option<String>,
     /// Result of learning; `None` if the contestant abstained, or learns no map.
     pub learned: Option<LearnRecord>,
+    /// Reason of the contestant to doubt its map when it had learned; `None` if it sees none.
+    pub doubt: Option<String>,
     /// Results of localizing, one for each place where the robot was put down.
     pub found: Vec<Located>,
     /// Results of driving to the goal, one for each place where the robot was put down.
@@ -107,8 +109,6 @@ pub struct LearnRecord {
     /// Probability that the system's map is right, by its own estimate, 0 … 1; `None` if the system
     /// gives no estimate.
     pub certainty: Option<f64>,
-    /// Reason of the system to doubt its map; `None` if it sees none.
-    pub doubt: Option<String>,
     /// Quality of the system's map, compared with the truth.
     pub judgement: MapJudgement,
     /// The judge's evidence.
@@ -132,7 +132,7 @@ impl ContestRecord {
     /// in a sentence without a full stop; `None` if it sees none.
     #[must_use]
     pub fn complaint(&self) -> Option<&str> {
-        let learned = self.learned.iter().filter_map(LearnRecord::complaint);
+        let learned = self.complaint_of_map().into_iter();
         let lost = self.found.iter().filter_map(|found| match &found.outcome {
             LocateOutcome::Abstained { why } => Some(why.as_str()),
             LocateOutcome::Right | LocateOutcome::Wrong => None,
@@ -140,6 +140,14 @@ impl ContestRecord {
         let homes = self.homes.iter().map(|home| home.gave_up.as_str());
         let mut whys = learned.chain(lost).chain(homes);
         whys.find(|why| !why.is_empty())
+    }
+
+    /// Returns why the contestant gave up learning or doubts its map, in a sentence without a full
+    /// stop; `None` if it does neither.
+    #[must_use]
+    pub fn complaint_of_map(&self) -> Option<&str> {
+        let why = self.learned.as_ref().map(|learned| learned.end.why());
+        why.filter(|why| !why.is_empty()).or(self.doubt.as_deref())
     }
 
     /// Returns how good its map is, to find the worst: 0 is the worst, and a right map is above 1.
@@ -153,14 +161,6 @@ impl ContestRecord {
 }
 
 impl LearnRecord {
-    /// Returns why the system gave up or doubts its map, in a sentence without a full stop; `None`
-    /// if it does neither.
-    #[must_use]
-    pub fn complaint(&self) -> Option<&str> {
-        let gave_up = Some(self.end.why()).filter(|why| !why.is_empty());
-        gave_up.or(self.doubt.as_deref())
-    }
-
     /// Returns the probability that the map is right by the system's own verdict, 0 … 1. It is the
     /// system's estimate if it claims something, and ½ if it is undecided.
     #[must_use]
@@ -314,6 +314,7 @@ impl Contest<'_> {
         watch(&*bout.outing, Moment::Begun);
         let mut learned = bout.learn(self.kidnapping(), &mut watch);
         learned.thinking = self.stopwatch.map(|_| bout.outing.thinking());
+        let doubt = bout.outing.doubt();
         bout.shut_door()
             .map_err(|source| self.enter_error(source))?;
         let mut informed = match learned.judgement.is_right && self.starts > 0 {
@@ -349,6 +350,7 @@ impl Contest<'_> {
         Ok(ContestRecord {
             abstained: None,
             learned: Some(learned),
+            doubt,
             found,
             homes,
         })
@@ -750,7 +752,6 @@ impl Bout {
         LearnRecord {
             claim: Claim::of(&driven.end, self.claims, &*self.outing),
             certainty,
-            doubt: self.outing.doubt(),
             end: driven.end,
             judgement,
             evidence,

@@ -11,9 +11,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use thiserror::Error;
-use tolman_robot::{
-    Guess, MapView, Mapper, SensesLandmarks, Standing, System, Task, VisitNaming,
-};
+use tolman_robot::{Guess, MapView, Mapper, SensesLandmarks, Standing, System, Task, VisitNaming};
 
 use super::talk::{Talk, quoted};
 use super::{Budget, Launch, LaunchError, Overrun};

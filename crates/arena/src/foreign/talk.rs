@@ -78,6 +78,24 @@ struct Answers {
     verdict: NamedVerdict,
 }
 
+/// Line after a time step.
+#[derive(Serialize)]
+struct StepLine<'a, S> {
+    step: u32,
+    sensing: &'a S,
+    landmark: Option<Landmark>,
+    #[serde(flatten)]
+    asked: Option<Asked>,
+}
+
+/// What a program is told and asked at a time step, if it learns.
+#[derive(Serialize)]
+struct Asked {
+    task: &'static str,
+    put_down: bool,
+    ask: [&'static str; 1],
+}
+
 /// First line to a program.
 #[derive(Serialize)]
 struct Greeting<'a> {
@@ -134,19 +152,21 @@ impl Talk {
         task: Task,
     ) -> Result<Value, BrainError> {
         let step = self.steps;
-        let sensing = serde_json::to_value(sensing);
-        let sensing = sensing.map_err(|source| BrainError::Sensing { step, source })?;
-        let mut line = serde_json::json!({ "step": step, "sensing": sensing, "landmark": landmark });
-        if self.is_asked {
-            let mut named = NamedTask::ALL.into_iter();
-            let named = named.find(|named| named.task() == task);
-            line["task"] = named.ok_or(BrainError::Task)?.name().into();
-            line["put_down"] = mem::take(&mut self.is_put_down).into();
-            line["ask"] = serde_json::json!(["belief"]);
-        }
+        let asked = match self.is_asked {
+            true => Some(self.asked(task)?),
+            false => None,
+        };
+        let line = StepLine {
+            step,
+            sensing,
+            landmark,
+            asked,
+        };
+        let line = serde_json::to_string(&line);
+        let line = line.map_err(|source| BrainError::Sensing { step, source })?;
         self.task = Some(task);
         self.is_stale |= self.is_learning();
-        let mut told = self.exchange(&line)?;
+        let mut told = self.exchange(line)?;
         if self.is_asked {
             let belief = self.answers(&mut told)?.belief;
             self.belief = NamedGuess::all(&belief)?;
@@ -156,6 +176,17 @@ impl Talk {
             }
         }
         Ok(told)
+    }
+
+    /// Returns what a step asks for in this task.
+    fn asked(&mut self, task: Task) -> Result<Asked, BrainError> {
+        let mut named = NamedTask::ALL.into_iter();
+        let named = named.find(|named| named.task() == task);
+        Ok(Asked {
+            task: named.ok_or(BrainError::Task)?.name(),
+            put_down: mem::take(&mut self.is_put_down),
+            ask: ["belief"],
+        })
     }
 
     /// Returns whether the program has not been told yet what the robot senses where it stands.
@@ -193,7 +224,8 @@ impl Talk {
     }
 
     fn ask_for_map(&mut self) -> Result<(), BrainError> {
-        let mut told = self.exchange(&serde_json::json!({ "ask": ["map", "verdict"] }))?;
+        let ask = serde_json::json!({ "ask": ["map", "verdict"] });
+        let mut told = self.exchange(ask.to_string())?;
         let answers = self.answers(&mut told)?;
         self.map = answers.map.unwrap_or_default().checked()?;
         self.ids = self.map.places.iter().map(|place| place.id).collect();
@@ -224,7 +256,7 @@ impl Talk {
     }
 
     /// Says one line and hears one.
-    fn exchange(&mut self, line: &Value) -> Result<Value, BrainError> {
+    fn exchange(&mut self, line: String) -> Result<Value, BrainError> {
         let Some(program) = &mut self.program else {
             return Err(BrainError::Ended("the program has ended".to_owned()));
         };
@@ -241,7 +273,7 @@ impl Talk {
             };
             program.say(serde_json::json!({ "hello": hello }).to_string())?;
         }
-        program.say(line.to_string())?;
+        program.say(line)?;
         match program.hear()? {
             Some(line) => json(self.steps, &line),
             None => Err(self.left()?),

@@ -7,9 +7,7 @@ use std::time::Instant;
 
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use tolman_arena::contest::{
-    Claim, Condition, Contest, ContestRecord, LocateOutcome,
-};
+use tolman_arena::contest::{Claim, Condition, Contest, ContestRecord, LocateOutcome};
 use tolman_arena::family::Family;
 use tolman_arena::foreign::{Budget, ForeignEntry, Log, Role};
 use tolman_arena::registry::Schooling;
@@ -107,20 +105,23 @@ fn what_a_program_does_wrong_is_named() {
             ("print('[]', flush=True); continue", "`[]`"),
             ("del reply['answer']", "has no `answer`"),
             ("answer['believe'] = 1", "believe"),
-            ("answer['belief'] = [{}]", "needs one of `place` and `point`"),
+            (
+                "answer['belief'] = [{}]",
+                "needs one of `place` and `point`",
+            ),
             (
                 "answer['belief'] = [{'place': 0, 'weight': 2}]",
                 "weights are from 0 to 1",
             ),
-            (
-                "answer['belief'] = [{'point': [1e999, 0]}]",
-                "Infinity",
-            ),
+            ("answer['belief'] = [{'point': [1e999, 0]}]", "Infinity"),
         ] {
             let record = fails(role, fault, words);
             let learned = record.learned.unwrap();
             assert_eq!(learned.claim, Claim::Wrong, "{fault}");
-            assert!(!learned.judgement.is_right && learned.places == 0, "{fault}");
+            assert!(
+                !learned.judgement.is_right && learned.places == 0,
+                "{fault}"
+            );
             assert!(!record.found[0].is_right(), "{fault}");
         }
     }
@@ -138,7 +139,10 @@ fn a_map_that_is_none_is_named() {
             "sys.stdout.write('{\"answer\": {\"map\": {\"links\": [], \"places\": ['); [sys.stdout.write('{\"id\": %d}, ' % i) for i in range(10**9)]",
             "a line that is too long",
         ),
-        ("answer['map']['links'].append([1, 7])", "link 1 of its map is with place 7"),
+        (
+            "answer['map']['links'].append([1, 7])",
+            "link 1 of its map is with place 7",
+        ),
         ("answer['map']['places'].append({'id': 1})", "place 1 twice"),
         ("answer['map']['places'].append({'id': -1})", "-1"),
         ("answer['map'] = {'places': []}", "links"),
@@ -146,7 +150,10 @@ fn a_map_that_is_none_is_named() {
     ] {
         let record = fails(Role::Mapper, &of_map(fault), words);
         let learned = record.learned.unwrap();
-        assert!(learned.places == 0 && learned.claim == Claim::Wrong, "{fault}");
+        assert!(
+            learned.places == 0 && learned.claim == Claim::Wrong,
+            "{fault}"
+        );
     }
 }
 
@@ -171,14 +178,30 @@ fn a_verdict_is_optional() {
     let maze = drawn("star", 1);
     for (verdict, claim, certainty) in [
         ("pass", Claim::Right, None),
-        ("answer['verdict'] = {'certainty': 0.9}", Claim::Right, Some(0.9)),
-        ("answer['verdict'] = {'certainty': 0.2}", Claim::Wrong, Some(0.2)),
-        ("answer['verdict'] = {'doubt': 'it is dark'}", Claim::Wrong, None),
+        (
+            "answer['verdict'] = {'certainty': 0.9}",
+            Claim::Right,
+            Some(0.9),
+        ),
+        (
+            "answer['verdict'] = {'certainty': 0.2}",
+            Claim::Wrong,
+            Some(0.2),
+        ),
+        (
+            "answer['verdict'] = {'doubt': 'it is dark'}",
+            Claim::Wrong,
+            None,
+        ),
     ] {
         let verdict = format!("if 'map' in answer: {verdict}");
         let record = played(Role::Mapper, &PROGRAM.replace("pass", &verdict), &maze);
         let learned = record.learned.unwrap();
-        assert_eq!((learned.claim, learned.certainty), (claim, certainty), "{verdict}");
+        assert_eq!(
+            (learned.claim, learned.certainty),
+            (claim, certainty),
+            "{verdict}"
+        );
     }
 }
 
@@ -190,11 +213,18 @@ fn the_mapper_of_the_guide_learns() {
     for (family, seed) in [("star", 11), ("ladder", 12), ("braided rooms", 13)] {
         let record = played(Role::Mapper, MAPPER, &drawn(family, seed));
         let learned = record.learned.as_ref().unwrap();
-        assert!(learned.judgement.is_right, "{family}: {:?}", record.complaint());
+        assert!(
+            learned.judgement.is_right,
+            "{family}: {:?}",
+            record.complaint()
+        );
         assert_eq!(learned.claim, Claim::Right);
         // It watches: the way to the goal would be the driver's.
         assert!(record.homes.is_empty());
         let found = &record.found[0].outcome;
-        assert!(matches!(found, LocateOutcome::Abstained { .. }), "{found:?}");
+        assert!(
+            matches!(found, LocateOutcome::Abstained { .. }),
+            "{found:?}"
+        );
     }
 }

@@ -164,7 +164,7 @@ impl Procedure for Arena {
             condition,
             ..world.contest(row.contestant, robot)
         };
-        let replay = filmed(title, |watch| contest.play(&self.schooling, watch))?;
+        let replay = filmed(&title, |watch| contest.play(&self.schooling, watch))?;
         Ok(replay.map(|replay| replay.fact("seed", world.seed.to_string())))
     }
 }
@@ -175,7 +175,7 @@ impl Procedure for Arena {
 /// # Errors
 /// That of `play`.
 pub fn filmed(
-    title: String,
+    title: &str,
     play: impl FnOnce(&mut dyn FnMut(&dyn Outing, Moment)) -> Result<ContestRecord, ContestError>,
 ) -> Result<Option<Replay>, ContestError> {
     let mut film: Option<Film> = None;
@@ -183,7 +183,7 @@ pub fn filmed(
     play(&mut |outing, moment| match (moment, &mut film) {
         (Moment::Over, film) => {
             let film = film.take();
-            replay = film.map(|film| film.replay(outing, title.clone()));
+            replay = film.map(|film| film.replay(outing, title.to_owned()));
         }
         (Moment::PutDown, Some(film)) => film.lifted(outing),
         (_, Some(film)) => film.see(outing),

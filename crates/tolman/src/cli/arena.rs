@@ -9,6 +9,7 @@ use std::path::PathBuf;
 use std::sync::OnceLock;
 use std::time::Instant;
 
+use anyhow::{Error, anyhow};
 use rayon::prelude::*;
 use serde::Serialize;
 use tolman_arena::Outing;
@@ -16,7 +17,6 @@ use tolman_arena::contest::{
     Claim, Condition, Contest, ContestError, ContestRecord, LearnRecord, LocateOutcome, Moment,
 };
 use tolman_arena::registry::{Registry, RobotEntry, Schooling, SystemEntry, slug};
-use anyhow::{Error, anyhow};
 use tolman_papers::arena::{ArenaWorld, DrawnWorld, filmed};
 
 use self::programs::Programs;
@@ -172,7 +172,7 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
         let worst = worst(&held).and_then(|worst| jobs.get(worst));
         let worst = worst.ok_or_else(|| Failure::Failed(anyhow!("there is no map to replay")))?;
         let title = format!("{} in {}", worst.0.title(), worst.1.name);
-        let replay = filmed(title, |watch| hold(*worst, watch))?;
+        let replay = filmed(&title, |watch| hold(*worst, watch))?;
         if let Some(replay) = replay {
             let replay = replay.fact("seed", worst.1.seed.to_string());
             replay_file::write(path, replay, Overwrite::if_forced(arguments.force))?;
@@ -334,7 +334,11 @@ impl Arguments {
     fn worlds(&self, app: &App) -> Result<Vec<DrawnWorld>> {
         let kinds = self.kinds(app)?;
         let is_changed = slug(&self.condition) != slug(&Condition::AsMade.name());
-        if is_changed && kinds.iter().any(|kind| matches!(kind, ArenaWorld::Floor { .. })) {
+        if is_changed
+            && kinds
+                .iter()
+                .any(|kind| matches!(kind, ArenaWorld::Floor { .. }))
+        {
             return Err(Failure::BadInput(anyhow!(
                 "--condition {} changes mazes of cells: leave it out for worlds of free walls",
                 self.condition
@@ -478,7 +482,7 @@ fn why_not(rows: &[TableRow<'_>], worlds: &[DrawnWorld], out: &mut dyn Write) ->
             )?;
         }
         let mut learned = worlds.iter().zip(*records);
-        let first = learned.find_map(|(world, r)| Some((world, r.learned.as_ref()?.complaint()?)));
+        let first = learned.find_map(|(world, r)| Some((world, r.complaint_of_map()?)));
         if let Some((world, why)) = first {
             writeln!(
                 out,

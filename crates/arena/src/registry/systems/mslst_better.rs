@@ -7,9 +7,9 @@ use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::scan_map::{CorridorMap, ScanChart, ScanPlace};
 use tolman_maze::Direction;
 use tolman_robot::{Landmark, MapView};
+use tolman_systems::Actor;
 use tolman_systems::mslst::BetterMslst;
 use tolman_systems::mslst::better::{BetterConfig, BetterMap, BetterMapFile, BetterNavigator};
-use tolman_systems::Actor;
 
 use crate::course::Terrain;
 use crate::drawing::places_over_world;

@@ -53,8 +53,9 @@ impl Programs {
             Role::Brain => "--brain",
         };
         let words = shlex::split(command);
-        let words = words
-            .ok_or_else(|| anyhow!("{option} {command}: a quotation mark is not closed; close it"))?;
+        let words = words.ok_or_else(|| {
+            anyhow!("{option} {command}: a quotation mark is not closed; close it")
+        })?;
         let program = words.first();
         let program = program.ok_or_else(|| anyhow!("{option} is empty: name a program"))?;
         if !is_there(Path::new(program)) {
