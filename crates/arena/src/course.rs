@@ -288,8 +288,8 @@ impl Course {
         (libm::ceil(STEPS_PER_METRE * metres - 1e-9) as u32).max(LEAST_STEPS)
     }
 
-    /// Returns the length of all corridors, m: from cell to cell in a maze; in a free world, that of
-    /// corridors which cover its floor.
+    /// Returns the length of all corridors, m. In a free world these are corridors that cover its
+    /// floor.
     #[must_use]
     pub fn corridor_metres(&self) -> f64 {
         let of_a_cell = match &self.free {

@@ -105,7 +105,7 @@ struct Greeting<'a> {
 }
 
 impl Talk {
-    /// Starts a program for the robot of `hello`. If `is_asked`, it is asked for its map and belief.
+    /// Starts a program for the robot of `hello`. If `is_asked`, it is asked for its map.
     pub(super) fn start(
         launch: &Launch<'_>,
         budget: Budget,

@@ -68,7 +68,7 @@ pub enum ArenaWorld {
     },
 }
 
-/// Worlds of files, and the files that are none.
+/// Worlds of files, and what is wrong with other files.
 #[derive(Debug, Default)]
 pub struct OthersWorlds {
     /// The worlds, in the order of the files.
