@@ -5,7 +5,6 @@
 
 use core::cell::RefCell;
 use core::convert::Infallible;
-use core::time::Duration;
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -172,12 +171,6 @@ impl ForeignBrain {
     ) -> Result<Self, LaunchError> {
         let talk = RefCell::new(Talk::start(launch, budget, hello, true)?);
         Ok(Self { talk })
-    }
-
-    /// Returns how long the program kept us waiting.
-    #[must_use]
-    pub fn waited(&self) -> Duration {
-        self.talk.borrow().waited()
     }
 }
 

@@ -114,7 +114,9 @@ impl SystemEntry for ForeignEntry {
                     Ok(ForeignMapper::start(launch, self.budget, hello, driver)?)
                 })?;
                 let sent = setup.sent(self.name, course, robot, mapper);
-                Ok(Box::new(sent.laid_at(laid)))
+                Ok(Box::new(
+                    sent.laid_at(laid).thinking_for(ForeignMapper::waited),
+                ))
             }
         }
     }
