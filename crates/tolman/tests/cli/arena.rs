@@ -160,6 +160,10 @@ fn a_mapper_in_another_language_has_its_row_beside_one_that_crashes() {
     assert!(both.contains(row), "{both}");
     let why = "python3 bad.py gave up or doubts its map, first in star 0: the program ended with exit status: 7";
     assert_eq!(both.matches(why).count(), 2, "{both}");
+    let costs = arena(&["--mapper", mine, "--cost"]);
+    let cost = costs.lines().find(|line| line.starts_with(mine)).unwrap();
+    let cost: f64 = cost.split_whitespace().nth(4).unwrap().parse().unwrap();
+    assert!(cost > 1.0, "{costs}");
     let json = arena(&["--mapper", bad, "--json"]);
     let line: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(line["why"], "the program ended with exit status: 7");
