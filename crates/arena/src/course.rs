@@ -285,12 +285,19 @@ impl Course {
     /// the length of the corridors, with as many steps per metre as MSLST has in its Large maze.
     #[must_use]
     pub fn step_limit(&self) -> u32 {
+        let metres = self.corridor_metres();
+        (libm::ceil(STEPS_PER_METRE * metres - 1e-9) as u32).max(LEAST_STEPS)
+    }
+
+    /// Returns the length of all corridors, m. In a free world these are corridors that cover its
+    /// floor.
+    #[must_use]
+    pub fn corridor_metres(&self) -> f64 {
         let of_a_cell = match &self.free {
             Some(free) => free.paving.metres_per_cell(self.corridor_width),
             None => self.corridor_width,
         };
-        let metres = self.starts().count() as f64 * of_a_cell;
-        (libm::ceil(STEPS_PER_METRE * metres - 1e-9) as u32).max(LEAST_STEPS)
+        self.starts().count() as f64 * of_a_cell
     }
 
     /// Returns whether a way leads from a position to the destination: whether its cell is not

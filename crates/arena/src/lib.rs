@@ -49,6 +49,7 @@ pub mod micromouse;
 mod mind;
 pub mod mms;
 pub mod mslst;
+mod named_map;
 pub mod oracle;
 mod outing;
 pub mod pioneer;

@@ -5,15 +5,15 @@ use alloc::sync::Arc;
 use rand::Rng;
 use rand_chacha::ChaCha8Rng;
 use thiserror::Error;
-use tolman_control::Drive;
+use tolman_control::{Drive, Stack};
 use tolman_geom::Point;
-use tolman_robot::{Body, System, Task};
+use tolman_robot::{Body, Ring, System, Task};
 use tolman_sim::robots::{LaserPioneer, LaserPioneerConfig};
 use tolman_systems::mslst::better::{BetterConfig, BetterExplorer, BetterMap, BetterPart};
 use tolman_systems::mslst::{
-    GrowthRecord, Learned, MslstConfig, ScanRecorder, States, StatesError, Topology,
+    BetterMslst, GrowthRecord, Learned, MslstConfig, ScanRecorder, States, StatesError, Topology,
 };
-use tolman_systems::{Actor, Doing, TimeStep, stream};
+use tolman_systems::{Actor, Brain, Doing, OwnHeading, TimeStep, stream};
 
 use crate::course::Course;
 use crate::episode::layers;
@@ -21,6 +21,25 @@ use crate::episode_error::{EpisodeError, broken};
 use crate::lingerer::Lingerer;
 use crate::pioneer::CoursePioneer;
 use crate::run::{self, Ended, Limited};
+
+/// The better MSLST with the layers of a laser robot and a heading of its own.
+pub type BetterDriver = OwnHeading<BetterMslst>;
+
+/// Standard deviation of a compass's constant error, rad.
+const COMPASS_SD: f64 = 5.0 * core::f64::consts::PI / 180.0;
+
+/// Returns the better MSLST, without knowledge, to drive a robot with this ring by the layers of
+/// `stack`. All random numbers follow from `seed`.
+#[must_use]
+pub fn better_driver(config: BetterConfig, ring: Ring, stack: Stack, seed: u64) -> BetterDriver {
+    let brain = BetterMslst::new(config, ring);
+    own_heading(Actor::seeded(brain, stack, seed))
+}
+
+/// Returns an actor with a heading of its own, on a robot whose compass may be off.
+pub(crate) fn own_heading<B: Brain>(actor: Actor<B>) -> OwnHeading<B> {
+    OwnHeading::new(actor, COMPASS_SD)
+}
 
 /// Reason why no map was learned.
 #[derive(Debug, Error)]

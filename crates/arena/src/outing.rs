@@ -312,6 +312,8 @@ pub struct Sent<R: Robot, S> {
     keep: Keep<S>,
     lie: Lie<S>,
     choice: Count<S>,
+    /// Computing time of the system, if it is not that of its actions.
+    thought: Option<Thought<S>>,
     /// Name of the robot, if it differs from its model's.
     name: Option<&'static str>,
     /// True pose of the map's origin, if the map has positions of its places.
@@ -321,6 +323,7 @@ pub struct Sent<R: Robot, S> {
 }
 
 type Count<S> = Box<dyn Fn(&S) -> usize>;
+type Thought<S> = fn(&S) -> Duration;
 type Keep<S> = Box<dyn Fn(&S, &[Founding]) -> Result<Option<String>, BoxError>>;
 type Lie<S> = Box<dyn Fn(&S, &[Founding]) -> BTreeMap<u32, Point>>;
 
@@ -348,6 +351,7 @@ impl<R: Robot, S> Sent<R, S> {
                 (0..).zip(made.iter().map(|made| made.position)).collect()
             }),
             choice: Box::new(|_| 0),
+            thought: None,
             name: None,
             world_from_map: None,
             acting: Duration::ZERO,
@@ -392,6 +396,13 @@ impl<R: Robot, S> Sent<R, S> {
     pub fn choosing(self, choice: impl Fn(&S) -> usize + 'static) -> Self {
         let choice = Box::new(choice);
         Self { choice, ..self }
+    }
+
+    /// Lets `thought` say how long the system has thought, where another drives in its actions.
+    #[must_use]
+    pub fn thinking_for(self, thought: fn(&S) -> Duration) -> Self {
+        let thought = Some(thought);
+        Self { thought, ..self }
     }
 
     /// Calls the robot `name`, which is simulated by a model of another name.
@@ -535,7 +546,10 @@ where
     }
 
     fn thinking(&self) -> Duration {
-        self.acting.saturating_sub(self.robot.stepping())
+        match self.thought {
+            Some(thought) => thought(&self.system),
+            None => self.acting.saturating_sub(self.robot.stepping()),
+        }
     }
 
     fn put_down(&mut self, pose: Pose) -> Result<Standing, BoxError> {

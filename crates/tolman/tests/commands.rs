@@ -86,6 +86,7 @@ impl Ran {
     /// Runs a line in `page`, or copies there what it wrote for another page.
     fn run(&self, page: &Path, line: &str) -> Output {
         let needs = |word: &str| {
+            let word = word.trim_matches('\'');
             page.join(word).exists() && !GIVEN.iter().any(|given| word.starts_with(given))
         };
         if line.split_whitespace().any(needs) {

@@ -58,6 +58,15 @@ pub(crate) fn check() -> Result<()> {
     ] {
         workspace::succeed(&mut command(line))?;
     }
+    let mapper = command("host --template mapper").output()?.stdout;
+    fs::write(work.join("mapper.py"), mapper)?;
+    let mut arena = command("arena --family teeth --worlds 1 --json --mapper");
+    let row = arena.arg("python3 mapper.py").output()?.stdout;
+    let row = String::from_utf8_lossy(&row);
+    ensure!(
+        row.contains("\"right\":true"),
+        "the mapper in Python: {row}"
+    );
     // Its system never says where it is.
     let demo = "demo --system paces --maze teeth.maze --out demo.html";
     let mut demo = command(demo);

@@ -196,6 +196,12 @@ impl Evidence {
         }
     }
 
+    /// Returns whether a map is a chart of a free world: its places lie where they truly are, and
+    /// cover the floor.
+    pub(super) fn is_chart(&self, map: &MapView, course: &Course) -> bool {
+        course.is_free() && self.complaint_of_chart(map, course) == Some(None)
+    }
+
     /// Returns why a map is no chart of a free world, `Some(None)` if it is one, and `None` if its
     /// places have no positions.
     fn complaint_of_chart(&self, map: &MapView, course: &Course) -> Option<Option<String>> {

@@ -10,6 +10,7 @@ mod claim;
 mod condition;
 mod errands;
 mod evidence;
+mod floor;
 mod floor_graph;
 mod ideal;
 mod judgement;
@@ -29,6 +30,7 @@ pub use condition::Condition;
 pub(crate) use condition::with_doors;
 pub use errands::{Errands, ErrandsRecord, NoLandmarks};
 pub use evidence::{Evidence, TrueVisits};
+pub use floor::FloorContest;
 pub use judgement::MapJudgement;
 pub use play::{
     Contest, ContestError, ContestRecord, Home, LearnRecord, LocateOutcome, Located, Moment,

@@ -91,6 +91,8 @@ pub struct ContestRecord {
     pub abstained: Option<String>,
     /// Result of learning; `None` if the contestant abstained, or learns no map.
     pub learned: Option<LearnRecord>,
+    /// Reason of the contestant to doubt its map when it had learned; `None` if it sees none.
+    pub doubt: Option<String>,
     /// Results of localizing, one for each place where the robot was put down.
     pub found: Vec<Located>,
     /// Results of driving to the goal, one for each place where the robot was put down.
@@ -123,6 +125,39 @@ pub struct LearnRecord {
     pub map_bytes: Option<usize>,
     /// Computing time without the simulator; `None` if it was not measured.
     pub thinking: Option<Duration>,
+}
+
+impl ContestRecord {
+    /// Returns why the contestant did not do all of its tasks, in its own words: the first reason,
+    /// in a sentence without a full stop; `None` if it sees none.
+    #[must_use]
+    pub fn complaint(&self) -> Option<&str> {
+        let learned = self.complaint_of_map().into_iter();
+        let lost = self.found.iter().filter_map(|found| match &found.outcome {
+            LocateOutcome::Abstained { why } => Some(why.as_str()),
+            LocateOutcome::Right | LocateOutcome::Wrong => None,
+        });
+        let homes = self.homes.iter().map(|home| home.gave_up.as_str());
+        let mut whys = learned.chain(lost).chain(homes);
+        whys.find(|why| !why.is_empty())
+    }
+
+    /// Returns why the contestant gave up learning or doubts its map, in a sentence without a full
+    /// stop; `None` if it does neither.
+    #[must_use]
+    pub fn complaint_of_map(&self) -> Option<&str> {
+        let why = self.learned.as_ref().map(|learned| learned.end.why());
+        why.filter(|why| !why.is_empty()).or(self.doubt.as_deref())
+    }
+
+    /// Returns how good its map is, to find the worst: 0 is the worst, and a right map is above 1.
+    /// `None` if it learned none.
+    #[must_use]
+    pub fn goodness(&self) -> Option<f64> {
+        let judged = self.learned.as_ref()?.judgement;
+        let both = judged.link_recall * judged.link_precision.unwrap_or(0.0);
+        Some(both + if judged.is_right { 1.0 } else { 0.0 })
+    }
 }
 
 impl LearnRecord {
@@ -226,11 +261,11 @@ pub struct Home {
     pub gave_up: String,
 }
 
-const START_STREAM: u64 = 31;
+pub(super) const START_STREAM: u64 = 31;
 const KIDNAPPING_STREAM: u64 = 34;
 
 /// Initial limit of time steps, before the contest [allows](Outing::allow) more.
-const NO_STEPS: u32 = 0;
+pub(super) const NO_STEPS: u32 = 0;
 
 /// Share of the length of all corridors after which a robot is kidnapped.
 const KIDNAPPED_AT: f64 = 0.5;
@@ -279,6 +314,7 @@ impl Contest<'_> {
         watch(&*bout.outing, Moment::Begun);
         let mut learned = bout.learn(self.kidnapping(), &mut watch);
         learned.thinking = self.stopwatch.map(|_| bout.outing.thinking());
+        let doubt = bout.outing.doubt();
         bout.shut_door()
             .map_err(|source| self.enter_error(source))?;
         let mut informed = match learned.judgement.is_right && self.starts > 0 {
@@ -302,6 +338,9 @@ impl Contest<'_> {
                 with_true_map,
                 ..put
             });
+            if self.contestant.facts().watches {
+                continue;
+            }
             let home = bout
                 .home(there, &mut watch)
                 .map_err(|e| self.put_error(e))?;
@@ -311,6 +350,7 @@ impl Contest<'_> {
         Ok(ContestRecord {
             abstained: None,
             learned: Some(learned),
+            doubt,
             found,
             homes,
         })
@@ -456,7 +496,12 @@ pub(super) struct Bout {
     /// Whether a door is shut after the robot has learned.
     has_door: bool,
     truth: TrueGraph,
-    observer: IdealObserver,
+    /// The passive bound of localizing; `None` in a free world.
+    observer: Option<IdealObserver>,
+    /// Length of all corridors, m.
+    length: f64,
+    /// Distance of two places of a drawing that lie next to each other, m.
+    pub(super) unit: f64,
     claims: bool,
     pub(super) squares: Squares,
     pub(super) outing: Box<dyn Outing>,
@@ -507,13 +552,34 @@ pub(super) struct Driven {
 
 impl Bout {
     pub(super) fn new(contest: &Contest<'_>, outing: Box<dyn Outing>) -> Self {
+        let squares = Squares::of(outing.course());
         Self {
             maze: contest.maze.clone(),
             has_door: !contest.doors().is_empty(),
             truth: TrueGraph::of(contest.maze, contest.contestant.facts().places),
-            observer: contest.observer(outing.course()),
+            observer: Some(contest.observer(outing.course())),
+            length: contest.maze.corridor_count() as f64 * squares.pitch,
+            unit: squares.pitch,
             claims: contest.contestant.facts().claims,
-            squares: Squares::of(outing.course()),
+            squares,
+            outing,
+            is_lifted: false,
+            sites: Sites::default(),
+        }
+    }
+
+    /// Returns a contestant in a free world.
+    pub(super) fn in_floor(contestant: &dyn SystemEntry, outing: Box<dyn Outing>) -> Self {
+        let (course, facts) = (outing.course(), contestant.facts());
+        Self {
+            maze: course.maze.clone(),
+            has_door: false,
+            truth: TrueGraph::of_course(course, facts.places),
+            observer: None,
+            length: course.corridor_metres(),
+            unit: course.corridor_width,
+            claims: facts.claims,
+            squares: Squares::of(course),
             outing,
             is_lifted: false,
             sites: Sites::default(),
@@ -536,7 +602,10 @@ impl Bout {
         // The path does not show that the robot was lifted: its last pose is where that happened.
         let from = self.outing.path().len() - usize::from(!self.is_lifted);
         self.is_lifted = false;
-        let cells = self.maze.reachable().count() as u32;
+        let cells = match self.observer {
+            Some(_) => self.maze.reachable().count() as u32,
+            None => libm::ceil(self.length / self.unit) as u32,
+        };
         self.outing.allow(cells.saturating_mul(STEPS_A_CELL));
         Pursuit {
             task,
@@ -585,7 +654,7 @@ impl Bout {
         }
         pursuit.until = pursuit.until.max(last);
         pursuit.idle += 1;
-        if pursuit.driven - pursuit.before_last >= self.squares.pitch {
+        if pursuit.driven - pursuit.before_last >= self.unit {
             (pursuit.before_last, pursuit.idle) = (pursuit.driven, 0);
         }
         match standing {
@@ -643,13 +712,13 @@ impl Bout {
     }
 
     /// Returns the length of all corridors, m.
-    pub(super) fn corridors(&self) -> f64 {
-        self.maze.corridor_count() as f64 * self.squares.pitch
+    pub(super) const fn corridors(&self) -> f64 {
+        self.length
     }
 
     /// Returns the unit of [`LearnRecord::driven`], m.
     pub(super) fn scale(&self) -> f64 {
-        self.corridors().max(self.squares.pitch)
+        self.corridors().max(self.unit)
     }
 
     pub(super) fn learn(
@@ -681,7 +750,10 @@ impl Bout {
     pub(super) fn learned(&mut self, driven: Driven, been: TrueVisits) -> LearnRecord {
         let map = self.outing.map();
         let evidence = been.evidence(&*self.outing, driven.from);
-        let judgement = evidence.judge(&map, &self.truth);
+        let mut judgement = evidence.judge(&map, &self.truth);
+        if evidence.is_chart(&map, self.outing.course()) {
+            (judgement.is_right, judgement.is_right_of_visited) = (true, true);
+        }
         self.sites = Sites::of(&map, evidence.cells(), self.squares);
         let certainty = self.outing.certainty();
         LearnRecord {
@@ -715,7 +787,7 @@ impl Bout {
         self.outing.lift(pose)
     }
 
-    fn locate(
+    pub(super) fn locate(
         &mut self,
         start: (Cell, Direction),
         watch: &mut impl FnMut(&dyn Outing, Moment),
@@ -725,7 +797,7 @@ impl Bout {
         }
         watch(&*self.outing, Moment::PutDown);
         let pursuit = self.begin_to_localize();
-        let (sites, near) = (self.sites.clone(), NEAR * self.squares.pitch);
+        let (sites, near) = (self.sites.clone(), NEAR * self.unit);
         let mut chances = Vec::new();
         let driven = self.pursue(pursuit, |outing, before| {
             if chances.len() < Located::WATCHED {
@@ -735,10 +807,11 @@ impl Bout {
             watch(outing, Moment::Acted);
         });
         let path = &self.outing.path()[driven.from..];
-        let ceiling = self.observer.after(self.squares, start, path);
+        let observer = self.observer.as_ref();
+        let ceiling = observer.map(|observer| observer.after(self.squares, start, path));
         Ok(Located {
             outcome: self.outcome(driven.end),
-            ceiling: Some(ceiling),
+            ceiling,
             chances,
             with_true_map: None,
         })
@@ -761,18 +834,25 @@ impl Bout {
         let site = place.and_then(|place| self.sites.of_place(place));
         let off = site.map(|site| (site - self.here()).norm());
         match off {
-            Some(off) if off < NEAR * self.squares.pitch => LocateOutcome::Right,
+            Some(off) if off < NEAR * self.unit => LocateOutcome::Right,
             _ => LocateOutcome::Wrong,
         }
     }
 
-    fn home(
+    /// Returns the length of the shortest way from a cell to the goal, m.
+    fn metres_to_goal(&self, from: Cell) -> f64 {
+        match &self.observer {
+            Some(observer) => observer.maze.metres_to_goal(from, self.squares.pitch),
+            None => self.maze.metres_to_goal(from, self.squares.pitch),
+        }
+    }
+
+    pub(super) fn home(
         &mut self,
         start: (Cell, Direction),
         watch: &mut impl FnMut(&dyn Outing, Moment),
     ) -> Result<Home, BoxError> {
-        let maze = &self.observer.maze;
-        let shortest = maze.metres_to_goal(start.0, self.squares.pitch);
+        let shortest = self.metres_to_goal(start.0);
         if let Standing::GaveUp { why } = self.put_down(start)? {
             return Ok(Home {
                 over_shortest: None,

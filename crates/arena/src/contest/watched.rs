@@ -4,12 +4,13 @@ use serde::Deserialize;
 use thiserror::Error;
 use tolman_geom::Point;
 use tolman_maze::Maze;
-use tolman_robot::{Landmark, MapLink, MapPlace, MapView, VisitNaming};
+use tolman_robot::VisitNaming;
 
 use super::evidence::TrueVisits;
 use super::judgement::MapJudgement;
 use super::true_graph::{PlaceRule, TrueGraph};
 use super::whereabouts::Squares;
+use crate::named_map::NamedMap;
 
 /// A run of a robot with its true positions, and what its system said of its map. It is a file of
 /// JSON.
@@ -54,21 +55,6 @@ enum Naming {
     Never,
     EachStep,
     EachArrival,
-}
-
-#[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct NamedMap {
-    places: Vec<NamedPlace>,
-    links: Vec<[u32; 2]>,
-}
-
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct NamedPlace {
-    id: u32,
-    position: Option<[f64; 2]>,
-    landmark: Option<Landmark>,
 }
 
 /// Reason why a watched run cannot be judged.
@@ -130,29 +116,10 @@ impl WatchedRun {
             been.add(naming, action.visits, || action.place, ends);
             before = action.motions;
         }
-        let map = self.map();
+        let map = self.map.view();
         let named = (naming, self.visits.places.clone());
         let truth = TrueGraph::of(maze, rule);
         let evidence = been.of_map(&map, named, &path, 0, (squares, truth.spots().clone()));
         Ok(evidence.judge(&map, &truth))
-    }
-
-    fn map(&self) -> MapView {
-        let place = |place: &NamedPlace| MapPlace {
-            id: place.id,
-            position: place.position.map(Point::from),
-            landmark: place.landmark,
-        };
-        let links = self.map.links.iter();
-        MapView {
-            places: self.map.places.iter().map(place).collect(),
-            links: links
-                .map(|[from, to]| MapLink {
-                    from: *from,
-                    to: *to,
-                })
-                .collect(),
-            ..MapView::default()
-        }
     }
 }

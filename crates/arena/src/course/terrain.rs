@@ -1,8 +1,12 @@
-use tolman_maze::MazeFile;
-use tolman_robot::Body;
-use tolman_sim::World;
+use alloc::collections::BTreeSet;
 
-use super::{Course, CourseError};
+use rand::Rng;
+use tolman_maze::{Cell, MazeFile};
+use tolman_robot::Body;
+use tolman_sim::{Area, World, Zone};
+
+use super::paving::Paving;
+use super::{Course, CourseError, pick};
 use crate::pioneer::CORRIDOR_WIDTH;
 
 /// Worlds that robots can be sent into: a maze, or free walls.
@@ -23,6 +27,54 @@ pub struct FreeWorld {
     /// mazes.
     pub corridor_width: Option<f64>,
 }
+
+impl FreeWorld {
+    /// Returns the world with a destination: its own, or else a disc of half a metre somewhere on
+    /// the largest floor on which a robot of this `body` can drive about. O(area).
+    ///
+    /// # Errors
+    /// If the robot fits nowhere, or the world is too large for it.
+    pub fn with_destination(&self, body: &Body, rng: &mut impl Rng) -> Result<Self, CourseError> {
+        if self.world.zone(DESTINATION).is_some() {
+            return Ok(self.clone());
+        }
+        let paving = Paving::of(&self.world, body)?;
+        let floor = paving.maze(&self.world);
+        let mut left: BTreeSet<Cell> = (floor.grid().cells())
+            .filter(|cell| floor.degree(*cell) > 0)
+            .collect();
+        let mut largest: Vec<Cell> = Vec::new();
+        while let Some(first) = left.pop_first() {
+            let mut together = vec![first];
+            let mut next = 0;
+            while let Some(cell) = together.get(next).copied() {
+                let beside = floor.neighbours(cell).map(|(_, beside)| beside);
+                together.extend(beside.filter(|beside| left.remove(beside)));
+                next += 1;
+            }
+            if together.len() > largest.len() {
+                largest = together;
+            }
+        }
+        let diameter = 2.0 * body.radius();
+        let goal = pick(&largest, rng).ok_or(CourseError::CutOffWorld { diameter })?;
+        let disc = Area::Disc {
+            centre: paving.centre(goal),
+            radius: RADIUS,
+        };
+        let world = self.world.clone();
+        Ok(Self {
+            world: world.with_zone(Zone::new(DESTINATION, vec![disc]))?,
+            ..self.clone()
+        })
+    }
+}
+
+/// Zone to which robots are sent.
+const DESTINATION: &str = "destination";
+
+/// Radius of a destination, m.
+const RADIUS: f64 = 0.5;
 
 impl Terrain {
     /// Returns the maze, for requests that work in mazes only; `what` names the request, as in "the

@@ -3,26 +3,19 @@
 // Input holds any bytes: a reader indexes nothing.
 #![cfg_attr(not(test), warn(clippy::indexing_slicing))]
 
+use core::cell::RefCell;
 use core::convert::Infallible;
-use core::time::Duration;
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use serde_json::{Value, json};
+use serde_json::Value;
 use thiserror::Error;
-use tolman_robot::{Mapper, SensesLandmarks, Standing, System, Task};
+use tolman_robot::{Guess, MapView, Mapper, SensesLandmarks, Standing, System, Task, VisitNaming};
 
-use super::{Budget, ForeignProgram, Launch, LaunchError, Left, Overrun};
+use super::talk::{Talk, quoted};
+use super::{Budget, Launch, LaunchError, Overrun};
 use crate::BoxError;
-
-/// Version of the protocol that [`ForeignBrain`] speaks.
-const PROTOCOL: u32 = 1;
-
-/// Time within which a program that has closed its stdout must end.
-const GRACE: Duration = Duration::from_secs(5);
-
-/// Maximum length of a line quoted in an error, characters.
-const QUOTED: usize = 80;
+use crate::named_map::NamedError;
 
 /// First message to a foreign brain.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -33,8 +26,8 @@ pub struct Hello {
     pub radius: f64,
     /// Duration of a time step, µs.
     pub step_us: u64,
-    /// Maximum number of time steps.
-    pub step_limit: u32,
+    /// Maximum number of time steps; `None` where each task has its own.
+    pub step_limit: Option<u32>,
     /// The distance between the faces of a corridor's walls, m.
     pub corridor_width: f64,
 }
@@ -47,13 +40,12 @@ pub struct Hello {
 /// a command of the robot, such as `{"turn": 0.1, "translate": 0.5}`; `{"done": true}` when the
 /// task is done; or `{"give_up": "why"}`.
 ///
-/// A program that ends, or uses up its [`Budget`], has given up.
+/// One that [learns](Self::learning) is also told its task, and asked for its map and belief; the
+/// page `docs/brain.md` has these lines. A program that ends, or uses up its [`Budget`], has given
+/// up. After that, and after an error, it is heard no more, and gives up every task.
 #[derive(Debug)]
 pub struct ForeignBrain {
-    /// The running program; `None` once it has ended.
-    program: Option<ForeignProgram>,
-    hello: Hello,
-    steps: u32,
+    talk: RefCell<Talk>,
 }
 
 /// Reason why a foreign brain cannot go on.
@@ -63,6 +55,54 @@ pub enum BrainError {
     /// The program does not start.
     #[error(transparent)]
     Launch(#[from] LaunchError),
+    /// The program used up its budget.
+    #[error(transparent)]
+    Overrun(Overrun),
+    /// The program has ended.
+    #[error("{0}")]
+    Ended(String),
+    /// The program's map or belief cannot be one.
+    #[error(transparent)]
+    Map(#[from] NamedError),
+    /// A line from the program is no JSON.
+    #[error("the program's answer to step {step} is `{line}`, which is no JSON: {source}")]
+    Json {
+        /// Number of the time step, from 0.
+        step: u32,
+        /// The line, or its beginning.
+        line: String,
+        /// Error of the JSON reader.
+        source: serde_json::Error,
+    },
+    /// The program wrote a line to which there was no question.
+    #[error("before step {step} the program answers twice, `{line}`; write one line per answer")]
+    Twice {
+        /// Number of the time step, from 0.
+        step: u32,
+        /// The line, or its beginning.
+        line: String,
+    },
+    /// The program does not answer what it was asked.
+    #[error("the program was asked at step {step}, and its line `{line}` has no `answer`")]
+    NoAnswer {
+        /// Number of the time step, from 0.
+        step: u32,
+        /// The line, or its beginning.
+        line: String,
+    },
+    /// The program's answer is not in the form that was asked for.
+    #[error("the program's answer at step {step} is `{line}`: {source}")]
+    Asked {
+        /// Number of the time step, from 0.
+        step: u32,
+        /// The answer, or its beginning.
+        line: String,
+        /// Error of the JSON reader.
+        source: serde_json::Error,
+    },
+    /// The task has no name in the protocol.
+    #[error("the protocol has no name for the task")]
+    Task,
     /// A line from the brain is not an answer.
     #[error(
         "the brain's answer to step {step} is `{line}`: answer with a command as this robot has it, \
@@ -102,14 +142,6 @@ enum Answer<C> {
     Command(C),
 }
 
-/// First line to a brain.
-#[derive(Serialize)]
-struct Greeting<'a> {
-    #[serde(flatten)]
-    hello: &'a Hello,
-    protocol: u32,
-}
-
 /// Reason for which a brain ends its task.
 #[derive(Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -122,42 +154,23 @@ impl ForeignBrain {
     /// Starts a program to drive the robot of `hello`.
     ///
     /// # Errors
-    /// As [`ForeignProgram::start`].
+    /// As [`ForeignProgram::start`](super::ForeignProgram::start).
     pub fn start(launch: &Launch<'_>, budget: Budget, hello: Hello) -> Result<Self, LaunchError> {
-        Ok(Self {
-            program: Some(ForeignProgram::start(launch, budget)?),
-            hello,
-            steps: 0,
-        })
+        let talk = RefCell::new(Talk::start(launch, budget, hello, false)?);
+        Ok(Self { talk })
     }
 
-    /// Sends the readings to the program, and returns its answer; `None` if it has closed its
-    /// stdout.
-    fn ask(&mut self, step: &Value) -> Result<Option<String>, Overrun> {
-        let Some(program) = &mut self.program else {
-            return Ok(None);
-        };
-        if self.steps == 0 {
-            let greeting = Greeting {
-                hello: &self.hello,
-                protocol: PROTOCOL,
-            };
-            program.say(json!({ "hello": greeting }).to_string())?;
-        }
-        program.say(step.to_string())?;
-        program.hear()
-    }
-
-    /// Returns the standing of a brain whose program says no more, after waiting for the program's
-    /// end.
-    fn left(&mut self) -> Result<Standing, LaunchError> {
-        let Some(program) = self.program.take() else {
-            return Ok(Standing::gave_up("the brain has ended"));
-        };
-        Ok(match program.left(GRACE)? {
-            Left::ByItself(status) => Standing::gave_up(format!("the brain ended with {status}")),
-            Left::Killed => Standing::gave_up("the brain closed its stdout and ran on"),
-        })
+    /// Starts a program to drive the robot of `hello`, and to learn a map, for which it is asked.
+    ///
+    /// # Errors
+    /// As [`start`](Self::start).
+    pub fn learning(
+        launch: &Launch<'_>,
+        budget: Budget,
+        hello: Hello,
+    ) -> Result<Self, LaunchError> {
+        let talk = RefCell::new(Talk::start(launch, budget, hello, true)?);
+        Ok(Self { talk })
     }
 }
 
@@ -168,6 +181,94 @@ impl Mapper for ForeignBrain {
     fn observe(&mut self, (): &()) -> Result<(), Infallible> {
         Ok(())
     }
+
+    fn map(&self) -> MapView {
+        map(&self.talk)
+    }
+
+    fn belief(&self) -> Vec<Guess> {
+        self.talk.borrow().belief.clone()
+    }
+
+    fn visit_naming(&self) -> VisitNaming {
+        VisitNaming::EachStep
+    }
+
+    fn visits(&self) -> Vec<Option<u32>> {
+        self.talk.borrow().visits()
+    }
+
+    fn visit_count(&self) -> usize {
+        self.talk.borrow().visit_count()
+    }
+
+    fn doubt(&self) -> Option<String> {
+        doubt(&self.talk)
+    }
+
+    fn certainty(&self) -> Option<f64> {
+        certainty(&self.talk)
+    }
+}
+
+/// Returns the program's map, for which it is asked if it has learned since.
+pub(super) fn map(talk: &RefCell<Talk>) -> MapView {
+    let mut talk = talk.borrow_mut();
+    talk.refresh();
+    talk.map.clone()
+}
+
+/// Returns why the program's map may be wrong: by its own account, or as it has failed.
+pub(super) fn doubt(talk: &RefCell<Talk>) -> Option<String> {
+    let mut talk = talk.borrow_mut();
+    talk.refresh();
+    talk.failed.clone().or_else(|| talk.verdict.doubt.clone())
+}
+
+/// Returns the program's probability that its map is right.
+pub(super) fn certainty(talk: &RefCell<Talk>) -> Option<f64> {
+    let mut talk = talk.borrow_mut();
+    talk.refresh();
+    talk.verdict.certainty.filter(|_| talk.failed.is_none())
+}
+
+/// Returns whether a program that was put down can go on.
+pub(super) fn put_down(talk: &RefCell<Talk>) -> Standing {
+    let mut talk = talk.borrow_mut();
+    talk.put_down();
+    match &talk.failed {
+        Some(why) => Standing::gave_up(why),
+        None => Standing::UnderWay,
+    }
+}
+
+/// Returns how a program's task stands after an action. When it has ended, the program gives its
+/// map.
+pub(super) fn ended(talk: &RefCell<Talk>, standing: Standing) -> Standing {
+    if standing == Standing::UnderWay {
+        return standing;
+    }
+    let mut talk = talk.borrow_mut();
+    talk.refresh();
+    match &talk.failed {
+        Some(why) => Standing::gave_up(why),
+        None => standing,
+    }
+}
+
+/// Returns how a program's task stands after an error. It is heard no more.
+pub(super) fn failed(talk: &RefCell<Talk>, error: BrainError) -> Result<Standing, BrainError> {
+    match &error {
+        // Who runs it sees that flag, too.
+        BrainError::Overrun(Overrun::Stop) => return Ok(Standing::UnderWay),
+        // The robot may be out of time.
+        BrainError::Robot { .. } => {}
+        _ => talk.borrow_mut().fail(&error),
+    }
+    match error {
+        BrainError::Overrun(_) | BrainError::Ended(_) => Ok(Standing::gave_up(error.to_string())),
+        error => Err(error),
+    }
 }
 
 impl<R> System<R> for ForeignBrain
@@ -176,20 +277,31 @@ where
 {
     type Failure = BrainError;
 
-    fn act(&mut self, robot: &mut R, _: Task) -> Result<Standing, BrainError> {
-        let step = self.steps;
-        let sensing = serde_json::to_value(robot.sensing());
-        let sensing = sensing.map_err(|source| BrainError::Sensing { step, source })?;
-        let landmark = robot.landmark();
-        let told = json!({ "step": step, "sensing": sensing, "landmark": landmark });
-        let line = match self.ask(&told) {
-            Ok(Some(line)) => line,
-            Ok(None) => return Ok(self.left()?),
-            // Who runs it sees that flag, too.
-            Err(Overrun::Stop) => return Ok(Standing::UnderWay),
-            Err(overrun) => return Ok(Standing::gave_up(overrun.to_string())),
-        };
-        let command: R::Command = match answer(step, &line)? {
+    fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, BrainError> {
+        if let Some(why) = &self.talk.get_mut().failed {
+            return Ok(Standing::gave_up(why));
+        }
+        let acted = self.step(robot, task);
+        let acted = acted.or_else(|error| failed(&self.talk, error))?;
+        Ok(ended(&self.talk, acted))
+    }
+
+    fn put_down(&mut self) -> Standing {
+        put_down(&self.talk)
+    }
+}
+
+impl ForeignBrain {
+    /// Lets the program make one time step.
+    fn step<R>(&mut self, robot: &mut R, task: Task) -> Result<Standing, BrainError>
+    where
+        R: SensesLandmarks<Sensing: Serialize, Command: DeserializeOwned, Error: Into<BoxError>>,
+    {
+        let talk = self.talk.get_mut();
+        let told = talk.tell(robot.sensing(), robot.landmark(), task);
+        let told = told.map_err(no_command)?;
+        let step = talk.steps;
+        let command: R::Command = match answer(step, told)? {
             Answer::Command(command) => command,
             Answer::End(End::Done(true)) => return Ok(Standing::Done),
             Answer::End(End::Done(false)) => return Ok(Standing::gave_up("it is not done")),
@@ -199,27 +311,33 @@ where
             step,
             source: error.into(),
         })?;
-        self.steps += 1;
+        talk.steps += 1;
         Ok(Standing::UnderWay)
     }
 }
 
-fn answer<C: DeserializeOwned>(step: u32, line: &str) -> Result<Answer<C>, BrainError> {
-    serde_json::from_str(line).map_err(|source| BrainError::Answer {
-        step,
-        line: line.trim_end().chars().take(QUOTED).collect(),
-        source,
-    })
+/// Returns the error of a line that should have been a command.
+fn no_command(error: BrainError) -> BrainError {
+    match error {
+        BrainError::Json { step, line, source } => BrainError::Answer { step, line, source },
+        other => other,
+    }
+}
+
+fn answer<C: DeserializeOwned>(step: u32, told: Value) -> Result<Answer<C>, BrainError> {
+    let line = quoted(&told.to_string());
+    serde_json::from_value(told).map_err(|source| BrainError::Answer { step, line, source })
 }
 
 #[cfg(test)]
 mod tests {
     use tolman_robot::TurnTranslate;
 
+    use super::super::talk::json;
     use super::*;
 
     fn read(line: &str) -> Result<Answer<TurnTranslate>, BrainError> {
-        answer(3, line)
+        answer(3, json(3, line).map_err(no_command)?)
     }
 
     #[test]
@@ -236,7 +354,7 @@ mod tests {
 
     #[test]
     fn what_is_no_answer_is_quoted() {
-        for line in ["", "ahead", r#"{"turn": 0}"#, r#"{"left": 1, "right": 2}"#] {
+        for line in ["", "ahead", r#"{"turn":0}"#, r#"{"left":1,"right":2}"#] {
             let error = read(line).err().map(|error| error.to_string());
             let error = error.unwrap_or_default();
             assert!(error.contains("to step 3 is"), "{line}: {error}");

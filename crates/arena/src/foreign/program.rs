@@ -38,7 +38,7 @@ pub enum Log {
 /// Resources that a foreign program may use before it is ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Budget {
-    /// Maximum duration since the program's start.
+    /// Maximum duration for which we wait for the program, in all.
     pub time: Duration,
     /// Maximum number of bytes that the program may write.
     pub bytes: u64,
@@ -124,13 +124,13 @@ pub struct ForeignProgram {
     lines: Receiver<Option<String>>,
     replies: Option<SyncSender<String>>,
     budget: Budget,
-    started: Instant,
+    waited: Duration,
     heard_bytes: u64,
     heard_lines: u64,
 }
 
 /// Number of lines that may wait to be read, in either direction.
-const LINES_AHEAD: usize = 256;
+const LINES_AHEAD: usize = 16;
 
 /// Time between two looks at the flag and the clock.
 const PULSE: Duration = Duration::from_millis(50);
@@ -181,7 +181,7 @@ impl ForeignProgram {
             lines,
             replies: Some(replies),
             budget,
-            started: Instant::now(),
+            waited: Duration::ZERO,
             heard_bytes: 0,
             heard_lines: 0,
         })
@@ -194,7 +194,10 @@ impl ForeignProgram {
     pub fn hear(&mut self) -> Result<Option<String>, Overrun> {
         let line = loop {
             let left = self.look_at_clock()?;
-            match self.lines.recv_timeout(left.min(PULSE)) {
+            let began = Instant::now();
+            let heard = self.lines.recv_timeout(left.min(PULSE));
+            self.waited += began.elapsed();
+            match heard {
                 Ok(line) => break line.ok_or(Overrun::LineBytes)?,
                 Err(RecvTimeoutError::Timeout) => {}
                 Err(RecvTimeoutError::Disconnected) => return Ok(None),
@@ -227,8 +230,21 @@ impl ForeignProgram {
                 Err(TrySendError::Full(line)) => waiting = line,
             }
             self.look_at_clock()?;
+            let began = Instant::now();
             thread::sleep(Duration::from_millis(1));
+            self.waited += began.elapsed();
         }
+    }
+
+    /// Takes a line that has arrived and was not [heard](Self::hear) yet; `None` without one.
+    pub fn heard_ahead(&self) -> Option<String> {
+        self.lines.try_recv().ok().flatten()
+    }
+
+    /// Returns how long we have waited for the program.
+    #[must_use]
+    pub const fn waited(&self) -> Duration {
+        self.waited
     }
 
     /// Waits for a program that has closed its stdout. Its stdin is closed too; if it does not end
@@ -261,7 +277,7 @@ impl ForeignProgram {
         if self.stop.load(Ordering::Relaxed) {
             return Err(Overrun::Stop);
         }
-        let left = self.budget.time.checked_sub(self.started.elapsed());
+        let left = self.budget.time.checked_sub(self.waited);
         left.filter(|left| !left.is_zero()).ok_or(Overrun::Time)
     }
 }

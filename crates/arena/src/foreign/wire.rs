@@ -167,6 +167,9 @@ pub enum NamedTask {
 }
 
 impl NamedTask {
+    /// All tasks.
+    pub const ALL: [Self; 3] = [Self::Explore, Self::ReachGoal, Self::Localize];
+
     /// Returns the name, as in messages.
     #[must_use]
     pub const fn name(self) -> &'static str {

@@ -51,6 +51,9 @@ pub struct SystemFacts {
     /// Whether a drive by its map has to arrive before the map counts as learned, for a system that
     /// cannot judge its map.
     pub tried: bool,
+    /// Whether it only watches while another system drives, so that the way to the goal would not
+    /// be its own.
+    pub watches: bool,
     /// Rule for the cells that are places of this system. If it treats another cell with two ways
     /// as a place, that cell counts as part of a way.
     pub places: PlaceRule,
@@ -82,6 +85,7 @@ impl SystemFacts {
             drives: DrivesBy::OwnMap,
             claims: true,
             tried: false,
+            watches: false,
             places: PlaceRule::Landmarks,
             demo: (DemoWorld::Large, 1),
         }

@@ -12,6 +12,8 @@ mod cpm;
 mod entry;
 mod episodes;
 mod errands;
+#[cfg(unix)]
+mod foreign;
 mod gngslam;
 mod laser_diktiometry;
 mod noisy_mouse;

@@ -9,7 +9,8 @@ mod rows;
 mod verdicts;
 mod worlds;
 
-use tolman_arena::contest::{Condition, Contest, Moment};
+use tolman_arena::Outing;
+use tolman_arena::contest::{Condition, Contest, ContestError, ContestRecord, Moment};
 use tolman_arena::registry::{RobotEntry, Schooling};
 use tolman_draw::Figure;
 use tolman_experiment::{
@@ -25,7 +26,7 @@ use crate::rows::row_of;
 use tolman_film::Film;
 
 pub use verdicts::{PoolJudgement, PoolRound, RungJudgement, VerdictPool};
-pub use worlds::{ArenaWorld, DrawnWorld};
+pub use worlds::{ArenaWorld, DrawnWorld, OthersWorlds, world_of_map};
 
 /// Entry in the catalogue.
 pub(super) const ENTRY: Entry = Entry {
@@ -158,26 +159,37 @@ impl Procedure for Arena {
             CONDITIONS_TABLE => (self.world_of_condition(job.run)?, rows::condition_of(&row)?),
             _ => (self.world(&row, job.run)?, Condition::AsMade),
         };
-        let mut film: Option<Film> = None;
-        let mut replay = None;
         let title = format!("{}, run {}", job.row, job.run);
         let contest = Contest {
             condition,
             ..world.contest(row.contestant, robot)
         };
-        contest.play(&self.schooling, |outing, moment| {
-            match (moment, &mut film) {
-                (Moment::Over, film) => {
-                    let film = film.take();
-                    replay = film.map(|film| film.replay(outing, title.clone()));
-                }
-                (Moment::PutDown, Some(film)) => film.lifted(outing),
-                (_, Some(film)) => film.see(outing),
-                (_, none) => *none = Some(Film::new(outing)),
-            }
-        })?;
+        let replay = filmed(&title, |watch| contest.play(&self.schooling, watch))?;
         Ok(replay.map(|replay| replay.fact("seed", world.seed.to_string())))
     }
+}
+
+/// Returns a replay of a contest, which `play` holds before a viewer; `None` if the contestant
+/// abstains or is a baseline.
+///
+/// # Errors
+/// That of `play`.
+pub fn filmed(
+    title: &str,
+    play: impl FnOnce(&mut dyn FnMut(&dyn Outing, Moment)) -> Result<ContestRecord, ContestError>,
+) -> Result<Option<Replay>, ContestError> {
+    let mut film: Option<Film> = None;
+    let mut replay = None;
+    play(&mut |outing, moment| match (moment, &mut film) {
+        (Moment::Over, film) => {
+            let film = film.take();
+            replay = film.map(|film| film.replay(outing, title.to_owned()));
+        }
+        (Moment::PutDown, Some(film)) => film.lifted(outing),
+        (_, Some(film)) => film.see(outing),
+        (_, none) => *none = Some(Film::new(outing)),
+    })?;
+    Ok(replay)
 }
 
 fn no_row(job: &Job<'_>) -> BoxError {

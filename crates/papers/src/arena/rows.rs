@@ -222,6 +222,7 @@ pub(super) fn sized_world(
     Ok(DrawnWorld {
         name: format!("{} {run}", row.world),
         maze: braided.generate_corridors(&mut ChaCha8Rng::seed_from_u64(seed))?,
+        floor: None,
         seed,
         starts: 1,
     })

@@ -3,12 +3,19 @@ use std::path::{Path, PathBuf};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
-use tolman_arena::contest::{Condition, Contest};
+use tolman_arena::Outing;
+use tolman_arena::contest::{
+    Condition, Contest, ContestError, ContestRecord, FloorContest, Moment,
+};
+use tolman_arena::course::{FreeWorld, Terrain};
 use tolman_arena::family::{Family, FamilySize};
-use tolman_arena::registry::{Registry, RobotEntry, SystemEntry};
+use tolman_arena::pioneer::body;
+use tolman_arena::registry::{Registry, RobotEntry, Schooling, SystemEntry};
 use tolman_experiment::files::files_in;
 use tolman_experiment::{BoxError, run_seed};
+use tolman_formats::{MapCell, RosMap, input};
 use tolman_maze::{Cell, Direction, Maze};
+use tolman_sim::{Occupancy, World, WorldError};
 
 use crate::maze_file;
 
@@ -68,6 +75,22 @@ pub enum ArenaWorld {
         /// wide as a robot needs.
         width: Option<f64>,
     },
+    /// A world of free walls of a file, such as an occupancy grid.
+    Floor {
+        /// Name of the file.
+        name: String,
+        /// The world, perhaps without a destination.
+        floor: FreeWorld,
+    },
+}
+
+/// Worlds of files, and what is wrong with other files.
+#[derive(Debug, Default)]
+pub struct OthersWorlds {
+    /// The worlds, in the order of the files.
+    pub worlds: Vec<ArenaWorld>,
+    /// Why a file of a folder is no world, one error for each.
+    pub refused: Vec<BoxError>,
 }
 
 /// A drawing, with the seed of the contest in it.
@@ -75,8 +98,10 @@ pub enum ArenaWorld {
 pub struct DrawnWorld {
     /// Name of the world.
     pub name: String,
-    /// Maze of the drawing.
+    /// Maze of the drawing; of a floor, its squares for the laser Pioneer.
     pub maze: Maze,
+    /// The world of free walls that takes the place of the drawing; `None` for a maze.
+    pub floor: Option<FreeWorld>,
     /// Seed of all random numbers of the contest.
     pub seed: u64,
     /// Number of times that a robot is put down in the drawing for each task.
@@ -101,6 +126,30 @@ impl DrawnWorld {
             seed: self.seed,
             stopwatch: None,
         }
+    }
+
+    /// Holds a [contest](Self::contest) in it, or the same in its floor.
+    ///
+    /// # Errors
+    /// [`ContestError`].
+    pub fn hold(
+        &self,
+        contest: &Contest<'_>,
+        schooling: &Schooling,
+        watch: impl FnMut(&dyn Outing, Moment),
+    ) -> Result<ContestRecord, ContestError> {
+        let Some(floor) = &self.floor else {
+            return contest.play(schooling, watch);
+        };
+        let contest = FloorContest {
+            contestant: contest.contestant,
+            robot: contest.robot,
+            floor,
+            name: contest.name,
+            starts: contest.starts,
+            seed: contest.seed,
+        };
+        contest.play(schooling, watch)
     }
 }
 
@@ -131,6 +180,52 @@ impl ArenaWorld {
         Ok(worlds)
     }
 
+    /// Returns the mazes and floors of files, and of all files in folders. A floor is a
+    /// tolman-world (`.json`), or the `.yaml` of an occupancy grid. The pictures of grids and
+    /// other files of a folder, which are no worlds, are no errors.
+    ///
+    /// # Errors
+    /// If a folder cannot be read, or a file that is named is no world.
+    pub fn of_others(paths: &[PathBuf]) -> Result<OthersWorlds, BoxError> {
+        let mut others = OthersWorlds::default();
+        for path in paths {
+            if !path.is_dir() {
+                let world = Self::of_any(path, &others.worlds)?;
+                others.worlds.push(world);
+                continue;
+            }
+            let files = files_in(path).map_err(|error| maze_file::in_file(path, error))?;
+            for file in files.iter().filter(|file| !is_picture(file, &files)) {
+                match Self::of_any(file, &others.worlds) {
+                    Ok(world) => others.worlds.push(world),
+                    Err(error) => others.refused.push(error),
+                }
+            }
+        }
+        Ok(others)
+    }
+
+    fn of_any(path: &Path, before: &[Self]) -> Result<Self, BoxError> {
+        let world = match extension(path) {
+            "yaml" | "yml" => RosMap::read(path)
+                .map_err(BoxError::from)
+                .and_then(|map| Ok(world_of_map(map)?)),
+            "json" => input::text(path)
+                .map_err(BoxError::from)
+                .and_then(|text| Ok(World::from_json(&text)?)),
+            _ => return Self::of_file(path, before),
+        };
+        let world = world.map_err(|error| maze_file::in_file(path, error))?;
+        let is_taken = |name: &str| name == "all" || before.iter().any(|one| one.name() == name);
+        Ok(Self::Floor {
+            name: maze_file::told_apart(&maze_file::stem(path), is_taken),
+            floor: FreeWorld {
+                world,
+                corridor_width: None,
+            },
+        })
+    }
+
     fn of_file(path: &Path, before: &[Self]) -> Result<Self, BoxError> {
         let file = maze_file::read(path)?;
         let name = file.name.clone().unwrap_or_else(|| maze_file::stem(path));
@@ -147,7 +242,7 @@ impl ArenaWorld {
     pub fn name(&self) -> &str {
         match self {
             Self::Family(family) => family.name,
-            Self::File { name, .. } => name,
+            Self::File { name, .. } | Self::Floor { name, .. } => name,
         }
     }
 
@@ -172,6 +267,7 @@ impl ArenaWorld {
         number: u32,
         size: FamilySize,
     ) -> Result<DrawnWorld, BoxError> {
+        let mut floor_of_it = None;
         let (name, maze) = match self {
             Self::Family(family) => {
                 let rng = &mut ChaCha8Rng::seed_from_u64(seed);
@@ -179,10 +275,23 @@ impl ArenaWorld {
                 (format!("{} {number}", family.name), maze)
             }
             Self::File { name, maze, .. } => (name.clone(), with_start(maze, seed)),
+            Self::Floor { name, floor } => {
+                let rng = &mut ChaCha8Rng::seed_from_u64(seed);
+                let floor = floor.with_destination(&body(), rng);
+                let floor = floor.map_err(|error| maze_file::in_file(Path::new(name), error))?;
+                let terrain = Terrain::Free(floor);
+                let course = terrain.course(name, &body());
+                let course = course.map_err(|error| maze_file::in_file(Path::new(name), error))?;
+                if let Terrain::Free(floor) = terrain {
+                    floor_of_it = Some(floor);
+                }
+                (name.clone(), course.maze)
+            }
         };
         Ok(DrawnWorld {
             name,
             maze,
+            floor: floor_of_it,
             seed,
             starts: 1,
         })
@@ -196,6 +305,35 @@ impl ArenaWorld {
                 format!("{name}: {}", sizes.join(", ")).into()
             }
             Self::File { name, maze, .. } => format!("{name}\n{maze}").into(),
+            Self::Floor { name, .. } => name.clone().into(),
         }
     }
+}
+
+/// Returns the world of a ROS map. Unknown cells count as occupied.
+///
+/// # Errors
+/// If there are no walls in it, or too many.
+pub fn world_of_map(map: RosMap) -> Result<World, WorldError> {
+    let cells = map.cells.into_iter();
+    World::from_occupancy(&Occupancy {
+        width: map.width,
+        height: map.height,
+        resolution: map.resolution,
+        origin: map.origin,
+        occupied: cells.map(|cell| cell != MapCell::Free).collect(),
+    })
+}
+
+fn extension(path: &Path) -> &str {
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    extension.unwrap_or_default()
+}
+
+/// Returns whether a file is the picture of an occupancy grid among `files`.
+fn is_picture(path: &Path, files: &[PathBuf]) -> bool {
+    let of_map = |map: &PathBuf| matches!(extension(map), "yaml" | "yml");
+    let pictures = files.iter().filter(|map| of_map(map));
+    let mut pictures = pictures.filter_map(|map| Some(RosMap::header(map).ok()?.1));
+    pictures.any(|picture| picture.file_name() == path.file_name())
 }

@@ -1,6 +1,7 @@
 //! `tolman arena`: sends systems into worlds of every kind and compares their maps with the truth.
 
 mod errands;
+mod programs;
 mod verdicts;
 
 use core::time::Duration;
@@ -9,16 +10,21 @@ use std::path::PathBuf;
 use std::sync::OnceLock;
 use std::time::Instant;
 
+use anyhow::{Error, anyhow};
 use rayon::prelude::*;
 use serde::Serialize;
+use tolman_arena::Outing;
 use tolman_arena::contest::{
-    Claim, Condition, Contest, ContestError, ContestRecord, LearnRecord, LocateOutcome,
+    Claim, Condition, Contest, ContestError, ContestRecord, LearnRecord, LocateOutcome, Moment,
 };
 use tolman_arena::registry::{Registry, RobotEntry, Schooling, SystemEntry, slug};
-use tolman_papers::arena::{ArenaWorld, DrawnWorld};
+use tolman_papers::arena::{ArenaWorld, DrawnWorld, filmed};
 
-use super::failure::note;
-use super::{App, OrBadInput, Result, Unboxed, unknown};
+use self::programs::Programs;
+use super::failure::{note, told};
+use super::outputs::{self, Output};
+use super::replay_file::{self, Overwrite};
+use super::{App, Failure, OrBadInput, Result, Unboxed, unknown};
 
 /// A system or baseline of the arena.
 type Contestant = &'static dyn SystemEntry;
@@ -40,15 +46,18 @@ Examples:
   tolman arena --system micromouse --own-verdict --worlds 3
   tolman arena --system diktiometry-better --robot laser-pioneer --worlds 1")]
 pub(super) struct Arguments {
-    /// Maze files, or folders of them, to use instead of the families
+    /// Files of mazes in any format and of worlds of free walls (.json, or the .yaml of a ROS map),
+    /// or folders of them, to use instead of the families
     #[arg(value_name = "MAZE")]
     mazes: Vec<PathBuf>,
     /// The same as MAZE
     #[arg(long = "maze", value_name = "FILE|DIR")]
     maze_files: Vec<PathBuf>,
-    /// System to send, or `all`
-    #[arg(long, value_name = "NAME", default_value = "all")]
-    system: String,
+    /// System to send, or `all`; by default all, unless a program is given
+    #[arg(long, value_name = "NAME")]
+    system: Option<String>,
+    #[command(flatten)]
+    programs: Programs,
     /// Robot that carries the systems, or `own` for the one that each is made for
     #[arg(long, value_name = "NAME", default_value = "own")]
     robot: String,
@@ -84,9 +93,16 @@ pub(super) struct Arguments {
     /// Measure the system's own computing time per time step of learning; plays one world at a time
     #[arg(long)]
     cost: bool,
+    /// Write a replay of the world with the worst map: one HTML file that plays in any browser.
+    /// It needs a single contestant
+    #[arg(long, value_name = "FILE", value_parser = outputs::file(outputs::REPLAYS))]
+    replay: Option<Output>,
+    /// Overwrite the replay's file even if it is not a replay
+    #[arg(long, requires = "replay")]
+    force: bool,
     /// Judge what systems say about their own maps, on 100 right and 100 wrong maps; worlds become
     /// harder while most maps are right
-    #[arg(long, conflicts_with_all = ["mazes", "maze_files", "json", "cost", "condition", "starts"])]
+    #[arg(long, conflicts_with_all = ["mazes", "maze_files", "json", "cost", "condition", "starts", "replay"])]
     own_verdict: bool,
 }
 
@@ -118,6 +134,8 @@ struct Line<'a> {
     world: &'a str,
     seed: u64,
     abstained: Option<&'a str>,
+    /// Why the contestant did not do all that was asked of it, in its own words.
+    why: Option<&'a str>,
     right: Option<bool>,
     right_of_visited: Option<bool>,
     /// Verdict of the system on its own map.
@@ -139,7 +157,8 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
         "own" => None,
         name => Some(app.robot(name)?),
     };
-    let contestants = contestants(app, &arguments.system)?;
+    let contestants = arguments.contestants(app)?;
+    arguments.check_replay(&contestants)?;
     if arguments.own_verdict {
         return verdicts::judge(arguments, &contestants, robot, &arguments.kinds(app)?, out);
     }
@@ -148,24 +167,35 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     if arguments.task == ArenaTask::Errands {
         return errands::run(arguments, &contestants, robot, condition, &worlds, out);
     }
-    let jobs: Vec<(Contestant, &DrawnWorld)> = contestants
+    let jobs: Vec<Job<'_>> = contestants
         .iter()
         .flat_map(|contestant| worlds.iter().map(|world| (*contestant, world)))
         .collect();
     let schooling = Schooling::default();
-    let play = |(contestant, world): &(Contestant, &DrawnWorld)| {
+    let hold = |(contestant, world): Job<'_>, watch: &mut dyn FnMut(&dyn Outing, Moment)| {
         let contest = Contest {
             condition,
             stopwatch: arguments.cost.then_some(stopwatch),
-            ..world.contest(*contestant, robot)
+            ..world.contest(contestant, robot)
         };
-        contest.play(&schooling, |_, _| {})
+        world.hold(&contest, &schooling, watch)
     };
+    let play = |job: &Job<'_>| hold(*job, &mut |_, _| {});
     let held: Result<Vec<ContestRecord>, ContestError> = match arguments.cost {
         true => jobs.iter().map(play).collect(),
         false => jobs.par_iter().map(play).collect(),
     };
     let held = held?;
+    if let Some(path) = &arguments.replay {
+        let worst = worst(&held).and_then(|worst| jobs.get(worst));
+        let worst = worst.ok_or_else(|| Failure::Failed(anyhow!("there is no map to replay")))?;
+        let title = format!("{} in {}", worst.0.title(), worst.1.name);
+        let replay = filmed(&title, |watch| hold(*worst, watch))?;
+        if let Some(replay) = replay {
+            let replay = replay.fact("seed", worst.1.seed.to_string());
+            replay_file::write(path, replay, Overwrite::if_forced(arguments.force))?;
+        }
+    }
     if arguments.json {
         for ((contestant, world), record) in jobs.iter().zip(&held) {
             let line = line(*contestant, robot, world, record);
@@ -173,14 +203,32 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
         }
         return Ok(());
     }
+    let tell = |out: &mut dyn Write| match &arguments.replay {
+        Some(path) => replay_file::tell(path, out),
+        None => Ok(()),
+    };
     let of_each = held.chunks(worlds.len().max(1));
     let rows: Vec<TableRow<'_>> = contestants.iter().copied().zip(of_each).collect();
     if arguments.cost {
-        return Ok(costs(&rows, out)?);
+        costs(&rows, out)?;
+        return tell(out);
     }
     table(&rows, robot, out)?;
-    Ok(why_not(&rows, &worlds, out)?)
+    why_not(&rows, &worlds, out)?;
+    tell(out)
 }
+
+/// Returns the number of the contest with the worst map, the first of several; `None` if nobody
+/// learned one.
+fn worst(held: &[ContestRecord]) -> Option<usize> {
+    let maps = held.iter().map(ContestRecord::goodness).enumerate();
+    let maps = maps.filter_map(|(number, goodness)| Some((number, goodness?)));
+    let worst = maps.min_by(|a, b| a.1.total_cmp(&b.1));
+    worst.map(|(number, _)| number)
+}
+
+/// A contestant, and a world for it.
+type Job<'a> = (Contestant, &'a DrawnWorld);
 
 /// A contestant, and its records in all worlds.
 type TableRow<'a> = (Contestant, &'a [ContestRecord]);
@@ -192,9 +240,10 @@ fn or_dash(value: Option<impl ToString>) -> String {
 
 /// Writes the cost of learning for each system, as means over the worlds in which it drove.
 fn costs(rows: &[TableRow<'_>], out: &mut dyn Write) -> io::Result<()> {
+    let width = title_width(rows);
     writeln!(
         out,
-        "{:18} {:>6} {:>12} {:>10} {:>13}",
+        "{:width$} {:>6} {:>12} {:>10} {:>13}",
         "system", "worlds", "time steps", "µs a step", "bytes a place"
     )?;
     for (contestant, records) in rows {
@@ -207,7 +256,7 @@ fn costs(rows: &[TableRow<'_>], out: &mut dyn Write) -> io::Result<()> {
             |part: f64, whole: f64| or_dash((whole > 0.0).then(|| format!("{:.1}", part / whole)));
         writeln!(
             out,
-            "{:18} {:>6} {:>12} {:>10} {:>13}",
+            "{:width$} {:>6} {:>12} {:>10} {:>13}",
             contestant.title(),
             learned.len(),
             steps,
@@ -226,6 +275,12 @@ fn contestants(app: &App, name: &str) -> Result<Vec<Contestant>> {
     Ok(vec![app.system(name, competes)?])
 }
 
+/// Returns the width of the column of names.
+fn title_width(rows: &[TableRow<'_>]) -> usize {
+    let widths = rows.iter().map(|(one, _)| one.title().chars().count());
+    widths.max().unwrap_or(0).max(18)
+}
+
 fn condition(app: &App, name: &str, task: ArenaTask) -> Result<Condition> {
     let mut known = app.registry().conditions.clone();
     if task == ArenaTask::Errands {
@@ -241,24 +296,56 @@ fn condition(app: &App, name: &str, task: ArenaTask) -> Result<Condition> {
 }
 
 impl Arguments {
+    /// Returns the programs, then the systems of `--system`.
+    fn contestants(&self, app: &App) -> Result<Vec<Contestant>> {
+        let mut all = self.programs.contestants()?;
+        match &self.system {
+            Some(name) => all.extend(contestants(app, name)?),
+            None if self.programs.any() => {}
+            None => all.extend(contestants(app, "all")?),
+        }
+        Ok(all)
+    }
+
+    /// Refuses a replay of several contestants, or in place of another file.
+    fn check_replay(&self, contestants: &[Contestant]) -> Result {
+        match &self.replay {
+            Some(path) if contestants.len() == 1 => {
+                replay_file::check(path, Overwrite::if_forced(self.force))
+            }
+            Some(_) => Err(Failure::BadInput(anyhow!(
+                "--replay needs a single contestant: give one of --system, --mapper and --brain"
+            ))),
+            None => Ok(()),
+        }
+    }
+
     fn kinds(&self, app: &App) -> Result<Vec<ArenaWorld>> {
         let paths = [self.mazes.as_slice(), &self.maze_files].concat();
         Ok(match (paths.is_empty(), self.family.as_str()) {
             (false, _) => {
-                let files = ArenaWorld::of_files(&paths).unboxed().or_bad_input()?;
-                for file in &files {
+                let others = ArenaWorld::of_others(&paths).unboxed().or_bad_input()?;
+                for refused in others.refused {
+                    note(&told(&Error::from_boxed(refused)));
+                }
+                for world in &others.worlds {
                     if let ArenaWorld::File {
                         name,
                         width: Some(width),
                         ..
-                    } = file
+                    } = world
                     {
                         note(&format!(
                             "corridor_width = {width} of {name} is ignored: each robot gets corridors of its own width"
                         ));
                     }
                 }
-                files
+                if others.worlds.is_empty() {
+                    return Err(Failure::BadInput(anyhow!(
+                        "there is no maze and no world in what was named: give their files"
+                    )));
+                }
+                others.worlds
             }
             (true, "all") => ArenaWorld::families(),
             (true, name) => vec![ArenaWorld::Family(*app.family(name)?)],
@@ -267,6 +354,17 @@ impl Arguments {
 
     fn worlds(&self, app: &App) -> Result<Vec<DrawnWorld>> {
         let kinds = self.kinds(app)?;
+        let is_changed = slug(&self.condition) != slug(&Condition::AsMade.name());
+        if is_changed
+            && kinds
+                .iter()
+                .any(|kind| matches!(kind, ArenaWorld::Floor { .. }))
+        {
+            return Err(Failure::BadInput(anyhow!(
+                "--condition {} changes mazes of cells: leave it out for worlds of free walls",
+                self.condition
+            )));
+        }
         let count = match self.mazes.is_empty() && self.maze_files.is_empty() {
             true => self.worlds.unwrap_or(WORLDS),
             false => 1,
@@ -274,13 +372,25 @@ impl Arguments {
         let mut worlds = Vec::new();
         for kind in &kinds {
             for number in 0..count {
-                let drawn = kind.draw(self.seed, number);
-                let drawn = drawn.unboxed().or_bad_input()?;
+                let drawn = match (kind.draw(self.seed, number).unboxed(), kind) {
+                    (Ok(drawn), _) => drawn,
+                    // The other worlds stand.
+                    (Err(error), ArenaWorld::Floor { .. }) if kinds.len() > 1 => {
+                        note(&told(&error));
+                        continue;
+                    }
+                    (Err(error), _) => return Err(Failure::BadInput(error)),
+                };
                 let starts = self.starts;
                 worlds.push(DrawnWorld { starts, ..drawn });
             }
         }
-        Ok(worlds)
+        match worlds.is_empty() {
+            true => Err(Failure::BadInput(anyhow!(
+                "no world is left: give the file of one into which a robot fits"
+            ))),
+            false => Ok(worlds),
+        }
     }
 }
 
@@ -313,6 +423,7 @@ fn line<'a>(
         world: &world.name,
         seed: world.seed,
         abstained: record.abstained.as_deref(),
+        why: record.complaint(),
         right: judged.map(|judged| judged.is_right),
         right_of_visited: judged.map(|judged| judged.is_right_of_visited),
         says: learned.map(|learned| match learned.claim {
@@ -332,9 +443,10 @@ fn line<'a>(
 
 /// Writes the table with one row for each system.
 fn table(rows: &[TableRow<'_>], robot: Option<RobotEntry>, out: &mut dyn Write) -> io::Result<()> {
+    let width = title_width(rows);
     writeln!(
         out,
-        "{:18} {:13} {:>6} {:>9} {:>5} {:>7} {:>6} {:>7} {:>13}",
+        "{:width$} {:13} {:>6} {:>9} {:>5} {:>7} {:>6} {:>7} {:>13}",
         "system",
         "robot",
         "worlds",
@@ -357,7 +469,7 @@ fn table(rows: &[TableRow<'_>], robot: Option<RobotEntry>, out: &mut dyn Write) 
         let has_maps = judged().next().is_some();
         writeln!(
             out,
-            "{:18} {:13} {:>6} {:>9} {:>5} {:>7} {:>6} {:>7} {:>13}",
+            "{:width$} {:13} {:>6} {:>9} {:>5} {:>7} {:>6} {:>7} {:>13}",
             contestant.title(),
             carrier(*contestant, robot).title,
             records.len(),
@@ -370,13 +482,14 @@ fn table(rows: &[TableRow<'_>], robot: Option<RobotEntry>, out: &mut dyn Write) 
                 located.count(),
                 found().count()
             ))),
-            format!("{}/{}", came.count(), homes().count()),
+            or_dash((homes().count() > 0).then(|| format!("{}/{}", came.count(), homes().count()))),
         )?;
     }
     Ok(())
 }
 
-/// Writes why each system abstained, one line per system.
+/// Writes why each system abstained, and why it doubts its map or gave up, a line per system and
+/// reason.
 fn why_not(rows: &[TableRow<'_>], worlds: &[DrawnWorld], out: &mut dyn Write) -> io::Result<()> {
     for (contestant, records) in rows {
         let mut abstained = worlds.iter().zip(*records);
@@ -385,6 +498,16 @@ fn why_not(rows: &[TableRow<'_>], worlds: &[DrawnWorld], out: &mut dyn Write) ->
             writeln!(
                 out,
                 "{} abstained, first in {}: {why}",
+                contestant.title(),
+                world.name
+            )?;
+        }
+        let mut learned = worlds.iter().zip(*records);
+        let first = learned.find_map(|(world, r)| Some((world, r.complaint_of_map()?)));
+        if let Some((world, why)) = first {
+            writeln!(
+                out,
+                "{} gave up or doubts its map, first in {}: {why}",
                 contestant.title(),
                 world.name
             )?;

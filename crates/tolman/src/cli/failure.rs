@@ -133,7 +133,7 @@ pub(super) fn note(what: &str) {
 
 /// Returns an error and its causes in one line. A cause that the error's own text already contains
 /// is left out.
-fn told(error: &anyhow::Error) -> String {
+pub(super) fn told(error: &anyhow::Error) -> String {
     let mut told = String::new();
     for cause in error.chain().map(ToString::to_string) {
         if told.is_empty() {

@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Error, anyhow};
 use clap::ArgGroup;
 use tolman_arena::course::{Course, FreeWorld, Terrain};
-use tolman_formats::{MapCell, RosMap};
+use tolman_formats::RosMap;
 use tolman_geom::Point;
-use tolman_sim::{Area, Occupancy, World, Zone};
+use tolman_papers::arena::world_of_map;
+use tolman_sim::{Area, World, Zone};
 
 use super::kind::Kind;
 use super::unfinished::Call;
@@ -130,7 +131,7 @@ fn world(path: &Path) -> Result<World> {
             outputs::reads("world", &picture)?;
         }
         let read = RosMap::read(path).map_err(Error::from);
-        let world = read.and_then(|map| Ok(World::from_occupancy(&occupancy(map))?));
+        let world = read.and_then(|map| Ok(world_of_map(map)?));
         return world.with_context(|| maze::name(path)).or_bad_input();
     }
     let text = maze::text(path)?;
@@ -144,21 +145,6 @@ const DESTINATION: &str = "destination";
 fn is_yaml(path: &Path) -> bool {
     let extension = path.extension().and_then(|extension| extension.to_str());
     matches!(extension, Some("yaml" | "yml"))
-}
-
-/// Returns a ROS map as a grid for the simulator. Unknown cells count as occupied.
-fn occupancy(map: RosMap) -> Occupancy {
-    Occupancy {
-        width: map.width,
-        height: map.height,
-        resolution: map.resolution,
-        origin: map.origin,
-        occupied: map
-            .cells
-            .into_iter()
-            .map(|cell| cell != MapCell::Free)
-            .collect(),
-    }
 }
 
 impl Goal {

@@ -18,6 +18,7 @@ use super::looks::Looks;
 use super::send::{ARRIVE, Pursued, send};
 use super::sent_out::{StartOption, setup_of};
 use super::unfinished::{Call, Keeper, Saving};
+use super::words::words;
 use super::{App, Failure, OrBadInput, Result, Unboxed, interrupt, keep};
 use tolman_arena::registry::{RobotEntry, RobotKind, Schooling, Setup, slug};
 
@@ -57,15 +58,16 @@ pub(super) struct Arguments {
     /// Stop after this many time steps
     #[arg(long, value_name = "LIMIT", default_value_t = 20_000, value_parser = clap::value_parser!(u32).range(1..))]
     steps: u32,
-    /// Stop the program after this many seconds
+    /// Stop the program once it has kept the robot waiting for so many seconds
     #[arg(long, value_name = "SECONDS", default_value_t = 600, value_parser = clap::value_parser!(u64).range(1..=86_400))]
     time_limit: u64,
     /// Show what the program writes to stderr
     #[arg(long)]
     log: bool,
-    /// Write a sample program in Python, which follows the right-hand wall on a laser-pioneer
-    #[arg(long)]
-    template: bool,
+    /// Write a sample program in Python: `brain` follows the right-hand wall on a laser-pioneer,
+    /// `mapper` watches one and learns its map, for `tolman arena --mapper`
+    #[arg(long, value_name = "KIND", num_args = 0..=1, default_missing_value = "brain", value_parser = words(TEMPLATES))]
+    template: Option<&'static str>,
     #[command(flatten)]
     looks: Looks,
     /// Program and its arguments
@@ -77,8 +79,11 @@ pub(super) struct Arguments {
     program: Vec<String>,
 }
 
-/// Program that `--template` writes.
-const TEMPLATE: &str = include_str!("host/brain.py");
+/// Values of `--template`, with the program that each writes.
+const TEMPLATES: [(&str, &str, &str); 2] = [
+    ("brain", "Drives", include_str!("host/brain.py")),
+    ("mapper", "Watches", include_str!("host/mapper.py")),
+];
 
 /// Returns the group that requires a maze, a world or `--template`.
 fn ground_or_template() -> ArgGroup {
@@ -87,8 +92,8 @@ fn ground_or_template() -> ArgGroup {
 }
 
 pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -> Result {
-    if arguments.template {
-        return Ok(out.write_all(TEMPLATE.as_bytes())?);
+    if let Some(template) = arguments.template {
+        return Ok(out.write_all(template.as_bytes())?);
     }
     let world = arguments.ground.read()?;
     let robot = match &arguments.robot {
@@ -162,7 +167,7 @@ impl Arguments {
             robot: slug(facts.name),
             radius: facts.body.radius(),
             step_us: facts.step_us,
-            step_limit: self.steps,
+            step_limit: Some(self.steps),
             corridor_width: course.corridor_width,
         };
         let brain = ForeignBrain::start(launch, self.budget(), hello)?;

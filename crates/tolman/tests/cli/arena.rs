@@ -125,3 +125,112 @@ fn what_a_system_makes_of_its_maps_is_judged_by_right_and_wrong_ones() {
     assert!(table.contains("too few: 100 right"), "{table}");
     assert_eq!(tolman(&arguments).done(), table);
 }
+
+#[test]
+#[cfg(unix)]
+fn a_mapper_in_another_language_has_its_row_beside_one_that_crashes() {
+    if std::process::Command::new("python3")
+        .arg("-V")
+        .output()
+        .is_err()
+    {
+        // Past the test harness, which would keep it to itself.
+        let _ =
+            std::io::Write::write_all(&mut std::io::stderr(), b"SKIPPED: python3 is not there\n");
+        return;
+    }
+    let folder = folder("arena-mapper");
+    let mapper = tolman(&["host", "--template", "mapper"]).done();
+    std::fs::write(folder.join("mine.py"), mapper).unwrap();
+    std::fs::write(folder.join("bad.py"), "raise SystemExit(7)").unwrap();
+    let [mine, bad] = ["python3 mine.py", "python3 bad.py"];
+    let star = ["arena", "--family", "star", "--worlds", "1"];
+    let arena = |more: &[&str]| tolman_in(&folder, &[&star[..], more].concat()).done();
+    let alone = arena(&["--mapper", mine, "--replay", "worst.html"]);
+    let row = alone.lines().find(|line| line.starts_with(mine)).unwrap();
+    let columns: Vec<&str> = row.split_whitespace().collect();
+    assert_eq!(
+        columns[2..],
+        ["laser", "Pioneer", "1", "0", "1", "1", "1.00", "0/1", "–"]
+    );
+    assert!(alone.contains("replay: file://"), "{alone}");
+    let page = std::fs::read_to_string(folder.join("worst.html")).unwrap();
+    assert!(page.contains("python3 mine.py in star 0"));
+    let both = arena(&["--mapper", bad, "--mapper", mine, "--brain", bad]);
+    assert!(both.contains(row), "{both}");
+    let why = "python3 bad.py gave up or doubts its map, first in star 0: the program ended with exit status: 7";
+    assert_eq!(both.matches(why).count(), 2, "{both}");
+    let costs = arena(&["--mapper", mine, "--cost"]);
+    let cost = costs.lines().find(|line| line.starts_with(mine)).unwrap();
+    let cost: f64 = cost.split_whitespace().nth(4).unwrap().parse().unwrap();
+    assert!(cost > 1.0, "{costs}");
+    let json = arena(&["--mapper", bad, "--json"]);
+    let line: serde_json::Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(line["why"], "the program ended with exit status: 7");
+    assert_eq!(
+        (&line["right"], &line["says"]),
+        (&false.into(), &"wrong".into())
+    );
+}
+
+#[test]
+fn a_program_that_is_not_there_is_refused() {
+    tolman(&["arena", "--mapper", "no-such-program mine.py"])
+        .refused(2, &["there is no program no-such-program"]);
+    tolman(&["arena", "--brain", "'python3 mine.py"]).refused(2, &["a quotation mark"]);
+    tolman(&["arena", "--mapper", ""]).refused(2, &["--mapper is empty"]);
+    tolman(&["arena", "--replay", "worst.html"]).refused(2, &["a single contestant"]);
+}
+
+/// A drawing of blocks, as others make them.
+const BLOCKS: &str = "#######\n#S    #\n# ### #\n#   #G#\n#######\n";
+
+#[test]
+fn a_folder_of_others_has_worlds_of_all_kinds_and_its_other_files_are_named() {
+    let folder = folder("arena-others");
+    let given = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../mazes/worlds");
+    for file in ["hall.yaml", "hall.pgm", "rooms.json"] {
+        std::fs::copy(given.join(file), folder.join(file)).unwrap();
+    }
+    std::fs::write(folder.join("blocks.txt"), BLOCKS).unwrap();
+    std::fs::write(folder.join("notes.md"), "Where it is from").unwrap();
+    // Two metres of floor, and a robot half a metre across.
+    std::fs::write(
+        folder.join("slit.pgm"),
+        format!("P2 40 4 255{}", " 0".repeat(160)),
+    )
+    .unwrap();
+    let slit = "image: slit.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 1\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+    std::fs::write(folder.join("slit.yaml"), slit).unwrap();
+    let arguments = [
+        "arena",
+        ".",
+        "--system",
+        "mslst-better",
+        "--starts",
+        "0",
+        "--json",
+    ];
+    let json =
+        tolman_in(&folder, &arguments).failed(0, &["notes.md", "slit", "robot 0.5 m across"]);
+    let lines = json.lines().map(|line| serde_json::from_str(line).unwrap());
+    let lines: Vec<serde_json::Value> = lines.collect();
+    let worlds: Vec<&str> = lines
+        .iter()
+        .map(|line| line["world"].as_str().unwrap())
+        .collect();
+    assert_eq!(worlds, ["blocks", "hall", "rooms"]);
+    for line in &lines {
+        assert_eq!(line["right"], true, "{line}");
+    }
+    let refused = |more: &[&str], parts: &[&str]| {
+        let ended = tolman_in(&folder, &[&["arena"], more].concat());
+        assert_eq!(ended.failed(2, parts), "");
+    };
+    refused(&["notes.md"], &["notes.md"]);
+    refused(&["slit.yaml"], &["slit", "robot 0.5 m across"]);
+    refused(
+        &["hall.yaml", "--condition", "doors"],
+        &["--condition doors"],
+    );
+}

@@ -74,6 +74,17 @@ fn the_guide_shows_the_brain_that_the_command_writes() {
 }
 
 #[test]
+fn the_example_is_the_mapper_that_the_command_writes() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let mapper = tolman(&["host", "--template", "mapper"]).done();
+    assert!(mapper.lines().count() <= 40);
+    let example = std::fs::read_to_string(root.join("crates/python/examples/mapper.py"));
+    assert_eq!(example.unwrap(), mapper);
+    let guide = std::fs::read_to_string(root.join("docs/arena.md")).unwrap();
+    assert!(guide.contains(&format!("```python\n{mapper}```")));
+}
+
+#[test]
 fn a_program_is_told_of_its_robot_and_hears_each_time_step() {
     let script = "read -r hello; echo \"$hello\" >&2\n\
                   for turn in 0.1 0.2; do read -r seen; echo \"{\\\"turn\\\": $turn, \\\"translate\\\": 0}\"; done\n\
@@ -100,7 +111,7 @@ fn a_program_is_told_of_its_robot_and_hears_each_time_step() {
 #[test]
 fn a_program_that_fails_is_said_to() {
     let early = host_script("host-early", "read -r hello; read -r seen; exit 3\n", &[]);
-    early.refused(1, &["the brain ended with exit status: 3"]);
+    early.refused(1, &["the program ended with exit status: 3"]);
     let nonsense = "read -r hello; read -r seen; echo ahead; read -r seen\n";
     let nonsense = host_script("host-nonsense", nonsense, &[]);
     nonsense.refused(1, &["answer to step 0 is `ahead`", "{\"done\": true}"]);

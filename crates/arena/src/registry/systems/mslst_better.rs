@@ -7,14 +7,14 @@ use tolman_geom::{Heading, Point, Pose};
 use tolman_maps::scan_map::{CorridorMap, ScanChart, ScanPlace};
 use tolman_maze::Direction;
 use tolman_robot::{Landmark, MapView};
+use tolman_systems::Actor;
 use tolman_systems::mslst::BetterMslst;
 use tolman_systems::mslst::better::{BetterConfig, BetterMap, BetterMapFile, BetterNavigator};
-use tolman_systems::{Actor, OwnHeading};
 
 use crate::course::Terrain;
 use crate::drawing::places_over_world;
 use crate::gngslam::LaidOver;
-use crate::mslst::better_config;
+use crate::mslst::{better_config, better_driver, own_heading};
 use crate::outing::moved;
 use crate::pioneer::body;
 use crate::registry::any_robot::any;
@@ -28,9 +28,6 @@ use crate::{BoxError, Founding, Outing, Sent};
 pub(super) struct MslstBetterEntry;
 
 const PRESETS: [(&str, &str); 1] = [("pioneer", "As in the tables, row Better")];
-
-/// Standard deviation of a compass's constant error, rad.
-const COMPASS_SD: f64 = 5.0 * core::f64::consts::PI / 180.0;
 
 impl SystemEntry for MslstBetterEntry {
     fn facts(&self) -> SystemFacts {
@@ -60,8 +57,8 @@ impl SystemEntry for MslstBetterEntry {
         // The map's origin is where the robot starts; its axes are those of the compass.
         let start = robot.truth().pose.position;
         let world_from_map = Pose::new(start, Heading::EAST);
-        let brain = BetterMslst::new(config, setup.robot.laser_config().ring);
-        let actor = OwnHeading::new(Actor::seeded(brain, stack, setup.seed), COMPASS_SD);
+        let ring = setup.robot.laser_config().ring;
+        let actor = better_driver(config, ring, stack, setup.seed);
         let steps = setup
             .steps
             .unwrap_or_else(|| course.step_limit().saturating_mul(10));
@@ -91,7 +88,7 @@ impl SystemEntry for MslstBetterEntry {
         let laid = laid(&file);
         let map = BetterMap::of(file.chart, setup.robot.laser_config().ring, &config)?;
         let actor = Actor::seeded(BetterNavigator::new(Arc::new(map)), stack, setup.seed);
-        let actor = OwnHeading::new(actor, COMPASS_SD);
+        let actor = own_heading(actor);
         let steps = setup.steps.unwrap_or_else(|| course.step_limit());
         let sent = Sent::new(course, robot, steps, actor);
         Ok(Box::new(match laid {
