@@ -89,7 +89,7 @@ impl SystemEntry for ForeignEntry {
         setup.anew(self.name)?;
         setup.settings.none()?;
         if setup.robot.kind() == RobotKind::Epuck {
-            let course = setup.with_door(epuck_course_on(setup.world, setup.terrain)?)?;
+            let course = setup.with_doors(epuck_course_on(setup.world, setup.terrain)?)?;
             let model = Epuck::new(setup.condition.epuck(epuck()))?;
             let start = setup.start_off_centre(&course, tolman_sim::Model::body(&model))?;
             let robot = course.robot_at(start, model, setup.seed)?;

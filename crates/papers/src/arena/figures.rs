@@ -14,6 +14,7 @@ pub(super) fn of(worlds: &[ArenaWorld], runs: &[Run]) -> Result<Vec<Figure>, Box
         figures.extend(heat_map(number, table, task, worlds, runs)?);
     }
     figures.extend(by_size(runs)?);
+    figures.extend(super::errands::figures(runs)?);
     Ok(figures)
 }
 

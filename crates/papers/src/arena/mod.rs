@@ -3,6 +3,7 @@
 //! The tables show what each system learns, and whether its own verdict on that is right. They also
 //! show whether it localizes after it was put down, and whether it reaches the goal.
 
+mod errands;
 mod figures;
 mod records;
 mod rows;
@@ -100,6 +101,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         .collect();
     tables.push(records::sizes(SIZE_TABLE).rows(rows::of_sizes(options)));
     tables.push(records::conditions(CONDITIONS_TABLE).rows(rows::of_conditions(options)));
+    tables.push(errands::table(&worlds, options));
     let mut config = toml::Table::new();
     let named = worlds.iter().map(ArenaWorld::config);
     config.insert("worlds".to_owned(), named.collect::<Vec<_>>().into());
@@ -114,6 +116,9 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
 
 impl Procedure for Arena {
     fn run(&self, job: &Job<'_>) -> Result<Fields, BoxError> {
+        if job.table == errands::TABLE {
+            return self.errands(job.row, job.run);
+        }
         let row = RowName::read(job.row).ok_or_else(|| no_row(job))?;
         match job.table {
             SIZE_TABLE => return self.sized(&row, job.run),
@@ -148,6 +153,9 @@ impl Procedure for Arena {
     }
 
     fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, BoxError> {
+        if job.table == errands::TABLE {
+            return Ok(None);
+        }
         let row = RowName::read(job.row).ok_or_else(|| no_row(job))?;
         let robot = TABLES.into_iter().find(|(name, ..)| *name == job.table);
         let robot = robot.and_then(|(_, _, robot)| robot);

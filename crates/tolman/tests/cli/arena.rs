@@ -234,3 +234,31 @@ fn a_folder_of_others_has_worlds_of_all_kinds_and_its_other_files_are_named() {
         &["--condition doors"],
     );
 }
+
+#[test]
+fn errands_begin_with_an_empty_map_and_count_deliveries() {
+    let errands = ["arena", "--task", "errands", "--system", "diktiometry-better"];
+    let worlds = ["--family", "ring", "--worlds", "1"];
+    let table = tolman(&[&errands[..], &worlds].concat()).done();
+    assert!(table.contains("Diktiometry Better, learns first"), "{table}");
+    let json = tolman(&[&errands[..], &worlds, &["--json"]].concat()).done();
+    let first: serde_json::Value = serde_json::from_str(json.lines().next().unwrap()).unwrap();
+    assert_eq!(first["oracle"].as_array().unwrap().len(), 60);
+    assert!(first["deliveries"].as_array().unwrap().len() > 10, "{first}");
+    let doors = ["--condition", "moving-doors"];
+    let table = tolman(&[&errands[..], &worlds, &doors].concat()).done();
+    assert!(table.contains("Diktiometry Better"), "{table}");
+    tolman(&[&["arena", "--system", "cpm"][..], &doors].concat())
+        .refused(2, &["there is no condition moving-doors"]);
+}
+
+#[test]
+fn who_cannot_run_errands_is_named() {
+    let errands = ["arena", "--task", "errands"];
+    tolman(&[&errands[..], &["--system", "oracle"]].concat())
+        .refused(2, &["oracle runs no errands"]);
+    let folder = folder("errands");
+    std::fs::write(folder.join("corridor.maze"), CORRIDOR).unwrap();
+    let sent = ["corridor.maze", "--system", "mslst-better"];
+    tolman_in(&folder, &[&errands[..], &sent].concat()).failed(1, &["mark 1 to 8"]);
+}

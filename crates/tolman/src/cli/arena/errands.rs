@@ -3,13 +3,14 @@
 use alloc::collections::BTreeMap;
 use std::io::{self, Write};
 
+use anyhow::anyhow;
 use rayon::prelude::*;
 use serde::Serialize;
 use tolman_arena::contest::{Condition, Contest, ContestError, Errands, ErrandsRecord};
 use tolman_arena::registry::{RobotEntry, Schooling};
 use tolman_papers::arena::DrawnWorld;
 
-use super::{Arguments, Contestant, Result, carrier, or_dash};
+use super::{Arguments, Contestant, Failure, Result, carrier, or_dash};
 
 /// Result of a run, for `--json`.
 #[derive(Serialize)]
@@ -47,6 +48,7 @@ pub(super) fn run(
     worlds: &[DrawnWorld],
     out: &mut dyn Write,
 ) -> Result {
+    check(arguments, contestants, worlds)?;
     let delivers = |one: &&Contestant| one.facts().delivers;
     let entrants: Vec<(Contestant, bool)> = contestants
         .iter()
@@ -87,6 +89,32 @@ pub(super) fn run(
     match arguments.json {
         true => lines(&rows, robot, worlds, out),
         false => Ok(table(&rows, robot, out)?),
+    }
+}
+
+/// Refuses what errands do not have.
+fn check(arguments: &Arguments, contestants: &[Contestant], worlds: &[DrawnWorld]) -> Result {
+    let refused = |why: String| Err(Failure::BadInput(anyhow!(why)));
+    if let [only] = contestants
+        && !only.facts().delivers
+    {
+        return refused(format!(
+            "{} runs no errands: it does not look for landmarks; leave --task errands out",
+            only.name()
+        ));
+    }
+    if let Some(world) = worlds.iter().find(|world| world.floor.is_some()) {
+        let name = &world.name;
+        return refused(format!(
+            "errands need mazes of cells, and walls of {name} stand anywhere: give mazes"
+        ));
+    }
+    match (arguments.cost, &arguments.replay) {
+        (true, _) => refused("--cost measures learning: leave it or --task errands out".to_owned()),
+        (_, Some(_)) => {
+            refused("--replay shows learning: leave it or --task errands out".to_owned())
+        }
+        _ => Ok(()),
     }
 }
 
