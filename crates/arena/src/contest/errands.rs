@@ -29,8 +29,8 @@ pub use self::plan::NoLandmarks;
 /// A landmark of the drawing is named, and the robot, which begins at the start with an empty map,
 /// goes there or looks for it; then the next one is named. The run lasts as many metres as an
 /// oracle needs for [`OF_THE_ORACLE`](Self::OF_THE_ORACLE) errands: one that knows the world, doors
-/// included, and takes each errand's shortest way along the middles of the corridors. An errand that is given up
-/// costs as many metres as the oracle's way, so that nobody gains by giving up.
+/// included, and takes each errand's shortest way along the middles of the corridors. An errand
+/// that is given up costs the oracle's way, so that nobody gains by giving up.
 #[derive(Clone, Copy, Debug)]
 pub struct Errands<'a> {
     /// Contestant, robot, drawing, condition and seed. Its drawing marks the landmarks, or they are
@@ -225,7 +225,7 @@ impl<W: FnMut(&dyn Outing, Moment)> ErrandRun<W> {
         Ok(())
     }
 
-    /// Lets the system pursue a task for at most so many metres. Returns how that ended, and the
+    /// Lets the system pursue a task for at most `most` m. Returns how that ended, and the
     /// metres until it was at the task's landmark; `None` if it was not.
     fn pursue(&mut self, task: Task, most: f64) -> (TaskEnd, Option<f64>) {
         let left = self.record.metres - self.driven;

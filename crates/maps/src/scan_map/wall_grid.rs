@@ -211,7 +211,7 @@ impl WallGrid {
             .is_some_and(|cell| cell.passes > 0 && f64::from(cell.wall) * DISTANCE_UNIT >= radius)
     }
 
-    /// Returns whether a body of this radius, m, could fit with its middle in the cell, if that were
+    /// Returns whether a body of this radius, m, could fit with its middle in the cell if that were
     /// floor: nothing is known of it, and known walls leave room.
     pub(super) fn may_stand(&self, index: GridIndex, radius: f64) -> bool {
         self.ground(index) == GroundKind::Unknown

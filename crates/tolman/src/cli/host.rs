@@ -58,7 +58,7 @@ pub(super) struct Arguments {
     /// Stop after this many time steps
     #[arg(long, value_name = "LIMIT", default_value_t = 20_000, value_parser = clap::value_parser!(u32).range(1..))]
     steps: u32,
-    /// Stop the program once it has kept the robot waiting for so many seconds
+    /// Stop the program once it has kept the robot waiting this long
     #[arg(long, value_name = "SECONDS", default_value_t = 600, value_parser = clap::value_parser!(u64).range(1..=86_400))]
     time_limit: u64,
     /// Show what the program writes to stderr

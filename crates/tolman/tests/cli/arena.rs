@@ -237,14 +237,26 @@ fn a_folder_of_others_has_worlds_of_all_kinds_and_its_other_files_are_named() {
 
 #[test]
 fn errands_begin_with_an_empty_map_and_count_deliveries() {
-    let errands = ["arena", "--task", "errands", "--system", "diktiometry-better"];
+    let errands = [
+        "arena",
+        "--task",
+        "errands",
+        "--system",
+        "diktiometry-better",
+    ];
     let worlds = ["--family", "ring", "--worlds", "1"];
     let table = tolman(&[&errands[..], &worlds].concat()).done();
-    assert!(table.contains("Diktiometry Better, learns first"), "{table}");
+    assert!(
+        table.contains("Diktiometry Better, learns first"),
+        "{table}"
+    );
     let json = tolman(&[&errands[..], &worlds, &["--json"]].concat()).done();
     let first: serde_json::Value = serde_json::from_str(json.lines().next().unwrap()).unwrap();
     assert_eq!(first["oracle"].as_array().unwrap().len(), 60);
-    assert!(first["deliveries"].as_array().unwrap().len() > 10, "{first}");
+    assert!(
+        first["deliveries"].as_array().unwrap().len() > 10,
+        "{first}"
+    );
     let doors = ["--condition", "moving-doors"];
     let table = tolman(&[&errands[..], &worlds, &doors].concat()).done();
     assert!(table.contains("Diktiometry Better"), "{table}");

@@ -62,7 +62,7 @@ impl WallGrid {
         ends
     }
 
-    /// Takes walls away again that were [drawn anew](Self::renew). O(cells).
+    /// Takes walls away again that were [drawn later](Self::renew). O(cells).
     pub(in crate::scan_map) fn reopen(&mut self, walls: impl IntoIterator<Item = GridIndex>) {
         for index in walls {
             if let Some(slot) = self.slot(index)
@@ -159,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn walls_that_were_drawn_anew_can_be_taken_away() {
+    fn walls_that_were_drawn_later_can_be_taken_away() {
         let mut grid = seen(&[]);
         let come = grid.renew(Point::origin(), Heading::EAST, &room(0.5));
         assert!(

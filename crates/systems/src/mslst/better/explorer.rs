@@ -18,7 +18,7 @@ use crate::{Brain, Doing, RolledStep};
 /// Learns a [`ScanMap`]: goes to its gaps until none is left, then back to where the map begins.
 ///
 /// Sent to a landmark, it goes there by the map so far, and looks for it in the gaps until it is on
-/// the map. On such errands walls may come and go: it draws them anew, and sees no sign of a lift
+/// the map. On such errands walls may come and go: it draws them again, and sees no sign of a lift
 /// in them.
 ///
 /// If the robot was moved meanwhile, the way back leads through walls or past openings that are not
@@ -265,7 +265,7 @@ impl BetterExplorer {
         Plan::Return(self.towards(&clearings, &way, scan, heading))
     }
 
-    /// Returns the plan to come to a landmark: by the map, or to the nearest gap if it is not there.
+    /// Returns the plan to come to a landmark by the map, or to the nearest gap if it has none.
     /// `None` if there is no gap either.
     fn seek(&self, landmark: Landmark, scan: &Scan, heading: f64) -> Option<Plan> {
         let here = self.map.position();
