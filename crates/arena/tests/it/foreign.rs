@@ -32,7 +32,7 @@ for line in sys.stdin:
 "#;
 
 /// The mapper of the guide.
-const MAPPER: &str = include_str!("../../../python/examples/mapper.py");
+const MAPPER: &str = include_str!("mapper.py");
 
 /// Time for which a program may keep its robot waiting, s.
 const PATIENCE: u64 = 2;

@@ -1,0 +1,1 @@
+../../../python/examples/mapper.py
