@@ -35,7 +35,7 @@ record! {
         /// Whether it declared, before it drove, that it cannot work there, or no opening of the
         /// drawing can be shut.
         abstained: bool => neither("abstained"),
-        /// Percent of the oracle's deliveries in the same metres; more than 100 for who cuts corners.
+        /// Percent of the oracle's deliveries in the same metres; above 100 if it cuts corners.
         oracle_rate_percent: Option<f64> => higher("of the oracle").unit("%").at_least(0).decimals(1),
         /// The same in the last third of the metres.
         oracle_rate_last_third_percent: Option<f64> => higher("in the last third").unit("%").at_least(0).decimals(1),
