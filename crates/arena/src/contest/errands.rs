@@ -8,7 +8,6 @@ mod oracle;
 mod plan;
 
 use alloc::collections::BTreeMap;
-use core::fmt;
 
 use tolman_maze::Maze;
 use tolman_robot::{Goal, Landmark, Task};
@@ -236,13 +235,5 @@ impl<W: FnMut(&dyn Outing, Moment)> ErrandRun<W> {
             .pursue(pursuit, |outing, _| watch(outing, Moment::Acted));
         self.driven += driven.metres;
         (driven.end, driven.arrived)
-    }
-}
-
-impl<W> fmt::Debug for ErrandRun<W> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("ErrandRun")
-            .field("record", &self.record)
-            .finish_non_exhaustive()
     }
 }

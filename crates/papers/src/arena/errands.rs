@@ -5,9 +5,9 @@ use tolman_arena::registry::{Registry, SystemEntry};
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
 use tolman_experiment::{BoxError, Fields, Options, Record, Row, Run, Table, record};
 
-use super::rows::ALL;
+use super::rows::{ALL, BETWEEN, RowName};
 use super::worlds::ArenaWorld;
-use super::{Arena, ENTRY, of_all};
+use super::{Arena, ENTRY};
 use crate::metrics::UsualMetrics as _;
 
 /// Name of the table.
@@ -22,9 +22,6 @@ const CONDITIONS: [Condition; 3] = [
 
 /// What is added to the name of a system that learns the whole world before its first errand.
 const LEARNS_FIRST: &str = ", learns first";
-
-/// Separator of system, condition and world in a row's name.
-const BETWEEN: &str = " · ";
 
 /// Number of marks, in equal shares of a run's metres, at which deliveries are counted.
 const MARKS: u32 = 20;
@@ -165,15 +162,11 @@ impl Arena {
     /// Plays a run of the table of errands.
     pub(super) fn errands(&self, row: &str, run: u32) -> Result<Fields, BoxError> {
         let row = ErrandsRow::read(row).ok_or("there is no such row of errands")?;
-        let (world, number) = match row.world {
-            ALL => of_all(run, self.worlds.len() as u32),
-            name => {
-                let mut worlds = self.worlds.iter();
-                let world = worlds.position(|world| world.name() == name);
-                (world.ok_or("there is no such world")? as u32, run)
-            }
+        let name = RowName {
+            contestant: row.contestant,
+            world: row.world,
         };
-        let drawn = self.worlds[world as usize].draw(self.seed, number)?;
+        let drawn = self.world(&name, run)?;
         let errands = Errands {
             contest: Contest {
                 condition: row.condition,

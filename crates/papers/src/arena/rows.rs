@@ -23,7 +23,7 @@ const SLOW_RUNS: u32 = 1;
 const NO_RUNS: u32 = 0;
 
 /// Separator of system and world in a row's name.
-const BETWEEN: &str = " · ";
+pub(super) const BETWEEN: &str = " · ";
 
 /// The parts of a row's name.
 pub(super) struct RowName<'a> {

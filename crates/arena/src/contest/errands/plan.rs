@@ -1,4 +1,4 @@
-use alloc::collections::BTreeMap;
+use alloc::collections::{BTreeMap, BTreeSet};
 use core::ops::RangeInclusive;
 
 use rand::RngExt;
@@ -64,9 +64,7 @@ const ERRAND_STREAM: u64 = 36;
 /// most. They stand in random cells but start and goals, three steps apart where there is room.
 pub(super) fn placed(maze: &Maze, seed: u64) -> Result<Maze, NoLandmarks> {
     let reached: Vec<Cell> = maze.reachable().collect();
-    let mut marked: Vec<u32> = maze.landmarks().values().copied().collect();
-    marked.sort_unstable();
-    marked.dedup();
+    let marked = numbers(maze);
     if !marked.is_empty() {
         let cut_off = maze
             .landmarks()
@@ -112,6 +110,12 @@ pub(super) fn placed(maze: &Maze, seed: u64) -> Result<Maze, NoLandmarks> {
     Ok(placed)
 }
 
+/// Returns the numbers of a drawing's landmarks, each once and in order.
+fn numbers(maze: &Maze) -> Vec<u32> {
+    let numbers: BTreeSet<u32> = maze.landmarks().values().copied().collect();
+    numbers.into_iter().collect()
+}
+
 /// An errand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Errand {
@@ -144,12 +148,9 @@ pub(super) struct ErrandPlan {
 impl ErrandPlan {
     /// Returns the errands in a drawing that marks landmarks, with these openings as doors.
     pub(super) fn new(maze: &Maze, doors: Vec<(Cell, Direction)>, seed: u64) -> Self {
-        let mut landmarks: Vec<u32> = maze.landmarks().values().copied().collect();
-        landmarks.sort_unstable();
-        landmarks.dedup();
         Self {
             maze: maze.clone(),
-            landmarks,
+            landmarks: numbers(maze),
             doors: doors.into_iter().map(|door| (door, false)).collect(),
             last: None,
             drawn: 0,
