@@ -7,7 +7,7 @@ use std::process::Command;
 
 use anyhow::{Context, Result, ensure};
 
-use crate::ci::{Outcome, with};
+use crate::ci::{Outcome, command, with};
 use crate::workspace::{built, cargo, output, root, succeed, target_folder};
 
 /// Folder of the package.
@@ -86,7 +86,7 @@ fn examples() -> Result<Outcome> {
     succeed(&mut cpp(
         &[&["examples/mms.cpp", &library][..], &system].concat()
     ))?;
-    succeed(&mut cargo("build --quiet --package tolman"))?;
+    command()?;
     // A maze of half size is too large for it.
     let mazes = output(
         Command::new("git")

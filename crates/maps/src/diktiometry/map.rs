@@ -1,6 +1,7 @@
 use alloc::vec::Vec;
 
 use tolman_geom::PointBox;
+use tolman_planners::Graph;
 
 use super::{
     Fate, Frame, FrameId, Link, LinkId, LinkStatus, Looks, PathGraph, Place, PlaceId,
@@ -73,9 +74,19 @@ impl Diktiometry {
 
     /// Returns the position of `to` relative to `from` by the relation between their frames alone,
     /// m, or `None` if they are not related.
-    pub(super) fn related(&self, from: PlaceId, to: PlaceId) -> Option<PointBox> {
-        let [(start, from), (end, to)] = [from, to].map(|place| self.site(place));
+    #[must_use]
+    pub fn related(&self, from: PlaceId, to: PlaceId) -> Option<PointBox> {
+        let (start, from) = self.site(self.paths.resolve(from)?);
+        let (end, to) = self.site(self.paths.resolve(to)?);
         Some(self.reference.known(start, end)? + to - from)
+    }
+
+    /// Returns the distance from one place to another as the crow flies, m. Frames that are not
+    /// related put them [`UNRELATED`] apart.
+    #[must_use]
+    pub fn distance(&self, from: PlaceId, to: PlaceId) -> f64 {
+        let there = self.related(from, to);
+        there.map_or(UNRELATED, |there| there.middle().coords.norm())
     }
 
     /// Returns all places that can be reached from `origin` in the reference graph, by id, with
@@ -213,3 +224,32 @@ impl Diktiometry {
         })
     }
 }
+/// Graph for planning: from every place, each action along the link that most probably works now.
+/// The nodes are the ids of places.
+///
+/// A move costs its length. If it lowers the plan's probability of success by a factor of e, that
+/// costs [`FAILURE`] times as much. In a world that never changed, the cheapest plan is the
+/// shortest.
+impl Graph for Diktiometry {
+    fn node_count(&self) -> usize {
+        self.paths.node_count()
+    }
+
+    fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
+        for (id, link) in self.paths.likely(PlaceId(node)) {
+            let doubt = -libm::log(self.paths.chance(id).max(LEAST));
+            let metres = self.distance(link.from, link.to) * (1.0 + FAILURE * doubt);
+            visit(link.to.0, (1e3 * metres) as u32);
+        }
+    }
+}
+
+/// Cost of a move that fails, in its lengths. The failure is noticed half-way and a new plan is
+/// made: some dozen moves in worlds of dozens of places.
+const FAILURE: f64 = 20.0;
+
+/// Probability below which a link counts as impossible.
+const LEAST: f64 = 1e-3;
+
+/// Distance of places whose frames are not related, m.
+const UNRELATED: f64 = 1.0;

@@ -118,15 +118,16 @@ impl Observer {
             .collect()
     }
 
-    /// Returns the plan from one place to another: few actions that are likely to lead there. They
-    /// follow links that probably work now ([`PathGraph::likely`](super::PathGraph::likely)). In a
-    /// world that never changed they are the fewest. Empty if both are one place, `None` if no way
+    /// Returns the plan from one place to another: a short way of actions that are likely to lead
+    /// there. They follow links that probably work now
+    /// ([`PathGraph::likely`](super::PathGraph::likely)). In a world that never changed it is the
+    /// shortest. Empty if both are one place, `None` if no way
     /// is known. O(places + links · (degree + log links)).
     #[must_use]
     pub fn plan(&self, from: PlaceId, to: PlaceId) -> Option<Vec<PlanStep>> {
         let from = self.map.paths.resolve(from)?;
         let to = self.map.paths.resolve(to)?;
-        let way = a_star(&self.map.paths, from.0, |place| place == to.0, |_| 0)?.path;
+        let way = a_star(&self.map, from.0, |place| place == to.0, |_| 0)?.path;
         let ways = |place| self.map.paths.likely(place).map(|(_, link)| link.step());
         steps_along(&way, ways)
     }

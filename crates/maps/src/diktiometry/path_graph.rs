@@ -372,31 +372,16 @@ impl PathGraph {
     }
 }
 
-/// Graph for planning: from every place, each action along the link that most probably works now.
-/// The nodes are the ids of places.
-///
-/// A move costs `MOVE`. If a move lowers the plan's probability of success by a factor of e, that
-/// costs as much as `FAILURE` moves. In a world that never changed, the cheapest plan has the
-/// fewest moves.
+/// Each action at a place along the link that most probably works now, all at the same cost. The
+/// nodes are the ids of places.
 impl Graph for PathGraph {
     fn node_count(&self) -> usize {
         self.places.len()
     }
 
     fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
-        for (id, link) in self.likely(PlaceId(node)) {
-            let doubt = -libm::log(self.chance(id).max(LEAST));
-            visit(link.to.0, MOVE + (f64::from(FAILURE * MOVE) * doubt) as u32);
+        for (_, link) in self.likely(PlaceId(node)) {
+            visit(link.to.0, 1);
         }
     }
 }
-
-/// Cost of a move.
-const MOVE: u32 = 100;
-
-/// Cost of a plan that fails, moves. The failure is noticed half-way and a new plan is made: some
-/// dozen moves in worlds of dozens of places.
-const FAILURE: u32 = 20;
-
-/// Probability below which a link counts as impossible.
-const LEAST: f64 = 1e-3;

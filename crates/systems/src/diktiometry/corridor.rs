@@ -134,6 +134,16 @@ impl Beside {
         Self(gauge.beside(view).map(Span::at_start))
     }
 
+    /// Takes in that the robot turns back: what began now belongs to the place that it leaves.
+    /// Returns whether the place to which it turns back is still beside it.
+    pub(super) fn turn_back(&mut self) -> bool {
+        let is_beside = self.0.contains(&Span::Left);
+        for span in &mut self.0 {
+            *span = Span::at_start(matches!(span, Span::Since(_)));
+        }
+        is_beside
+    }
+
     /// Takes in `view` from `along` the way, m. Once the cause of a place has ended, returns the
     /// position of the place's middle along the way, m.
     pub(super) fn see(&mut self, view: View, along: f64, gauge: &RoutineConfig) -> Option<f64> {

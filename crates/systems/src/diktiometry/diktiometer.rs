@@ -12,7 +12,7 @@ use tolman_robot::{
 };
 
 use super::{
-    Eye, Guide, LandmarkSpot, LaserEye, MapError, MappedMove, RouteFinder, RoutineConfig,
+    Eye, Guide, LandmarkSpot, LaserEye, MapError, MappedMove, RouteFinder, Routine, RoutineConfig,
     RoutineError, Rover, Surveyor, aligned_signatures, sought,
 };
 use crate::on_robot::{fitted, needed};
@@ -33,8 +33,8 @@ use crate::{ForRobotError, LaserRobot, OnRobot};
 ///   gives up.
 /// - **Reach** a place: the map's plan, made again after every routine. It gives up if the map
 ///   knows no way.
-/// - **Reach** a landmark: the plan to where it was sensed last, at a place or on the way between
-///   two; on the way, the robot stops there. Until it was sensed, the robot explores.
+/// - **Reach** a landmark: the plan to the nearest spot where it was sensed, at a place or on the
+///   way between two; on the way, the robot stops there. Until it was sensed, the robot explores.
 /// - **Localize**: the planner's walk, until one hypothesis is confident and no other is. With an
 ///   earlier map it first makes as many moves as the mapper's `tracks.history`, on which confidence
 ///   rests.
@@ -49,10 +49,10 @@ use crate::{ForRobotError, LaserRobot, OnRobot};
 ///   gives up if the map does not have the landmark, or if its moves do not fit the map for long.
 /// - **Explore**: it gives up.
 ///
-/// A robot that starts in mid-corridor goes to a place before it maps. After a routine that broke
-/// off, it goes back to the place it left. With an earlier map it continues as if the robot stood
-/// where the map has it. If the robot was carried elsewhere, or a routine broke off beside a place,
-/// places may be made twice.
+/// A robot that starts in mid-corridor goes to a place before it maps. A routine that broke off goes
+/// on at the next action, to the place where it was to end. With an earlier map it continues as if
+/// the robot stood where the map has it. If the robot was carried elsewhere, places may be made
+/// twice.
 ///
 /// `E` is the eye by which it tells places apart; the mapper's percepts have to fit it.
 #[derive(Clone, Debug)]
@@ -62,6 +62,8 @@ pub struct Diktiometer<E> {
     guide: Guide,
     /// Finder of the way since the robot was put down; `None` before.
     finder: Option<RouteFinder>,
+    /// Routine that broke off between two places.
+    broken_off: Option<Routine>,
     seed: u64,
 }
 
@@ -202,6 +204,7 @@ impl<E> Diktiometer<E> {
         Self {
             guide: Guide::new(observer, config.until, config.heed, seed),
             finder: None,
+            broken_off: None,
             config,
             eye,
             seed,
@@ -252,6 +255,7 @@ impl<E> Diktiometer<E> {
         };
         let goal = self.spot_of(Landmark::Goal);
         self.finder = Some(RouteFinder::new(map.clone(), goal, self.seed));
+        self.broken_off = None;
         Standing::UnderWay
     }
 
@@ -340,19 +344,20 @@ where
     fn act(&mut self, robot: &mut R, task: Task) -> Result<Standing, Self::Failure> {
         let sought = sought(task, |landmark| self.guide.spot_of(landmark));
         let rover = Surveyor::new(robot, &self.eye, self.config.routines)?;
-        let mut rover = rover.seeking(sought);
+        let mut rover = rover.seeking(sought).going_on(self.broken_off.take());
         let acted = match &mut self.finder {
             Some(finder) => finder.act(&mut rover, task).map_err(MapError::Robot),
             None => self.guide.act(&mut rover, &self.config.mapper, task),
         };
-        match (acted, &mut self.finder, sought) {
-            (Err(MapError::Robot(RoutineError::Found)), Some(finder), _) => finder.lose_footing(),
-            (Err(MapError::Robot(RoutineError::Found)), None, Some(landmark)) => {
-                self.guide.broke_off_at(landmark);
+        self.broken_off = rover.broken_off();
+        match acted {
+            Err(MapError::Robot(RoutineError::Found)) => {
+                let found = sought.filter(|_| self.finder.is_none());
+                found.map(|landmark| self.guide.broke_off_at(landmark));
+                Ok(Standing::Done)
             }
-            (acted, ..) => return Ok(acted?),
+            acted => Ok(acted?),
         }
-        Ok(Standing::Done)
     }
 
     fn put_down(&mut self) -> Standing {

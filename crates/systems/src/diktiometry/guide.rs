@@ -3,17 +3,18 @@ use alloc::format;
 use core::ops::ControlFlow;
 
 use rand_chacha::ChaCha8Rng;
+use tolman_geom::{Point, PointBox};
 use tolman_maps::diktiometry::{
-    Action, Config, FirstPlace, Identity, MapState, ObservedMove, Observer, PlaceId, Signature,
-    WorldKind,
+    Action, Config, FirstPlace, Identity, MapState, ObservedMove, Observer, PlaceId, PlanStep,
+    Signature, WorldKind,
 };
 use tolman_maze::Direction;
 use tolman_planners::path_to;
 use tolman_robot::{Goal, Landmark, Standing, Task};
 
 use super::{
-    ExploreUntil, LandmarkSpot, MapError, MappedMove, Planner, Reason, RefusedMove, Rover,
-    first_place, observed,
+    Approach, Arrival, ExploreUntil, LandmarkSpot, MapError, MappedMove, Planner, Reason,
+    RefusedMove, Rover, approach, first_place, is_at_goal, observed,
 };
 use crate::brain::NO_POINTS;
 use crate::stream;
@@ -28,8 +29,10 @@ pub(super) struct Guide {
     look: Option<Signature>,
     until: ExploreUntil,
     whereabouts: Whereabouts,
-    /// Direction of a routine in progress, or of one that broke off.
+    /// Direction in which a routine began that broke off between two places.
     under_way: Option<Direction>,
+    /// Whether that routine has turned back.
+    is_turned: bool,
     planner: Planner,
     walk: ChaCha8Rng,
     /// Reason of the walk for the direction chosen last.
@@ -39,8 +42,8 @@ pub(super) struct Guide {
     /// Places that the rover visited, by their ids at that time; `None` for places of a dropped
     /// map.
     visited: Vec<Option<PlaceId>>,
-    /// Where each landmark was sensed last, by the place's id at that time.
-    landmarks: BTreeMap<Landmark, LandmarkSpot>,
+    /// Where each landmark was sensed, by the places' ids at that time.
+    landmarks: BTreeMap<Landmark, Vec<LandmarkSpot>>,
     /// Number of moves so far.
     moves: u32,
     /// Doubtful state of the map, and the move at which it began.
@@ -112,6 +115,7 @@ impl Guide {
             until,
             whereabouts: Whereabouts::Unknown,
             under_way: None,
+            is_turned: false,
             planner: Planner::new(heed),
             walk: stream(seed, WALK_STREAM),
             reason: None,
@@ -176,10 +180,20 @@ impl Guide {
             self.visited.push(place);
         }
         let before = rover.landmark();
-        self.recognize(before);
-        let direction = match self.next(task, before) {
-            Next::Continue(direction) => direction,
-            Next::Break(standing) => return Ok(standing),
+        let direction = match self.under_way {
+            Some(_) if is_at_goal(task, before) => return Ok(Standing::Done),
+            Some(way) => {
+                let left_behind = rover.left_behind();
+                self.is_turned |= left_behind.is_some_and(|off| self.turns_back(task, way, off));
+                way
+            }
+            None => {
+                self.recognize(before);
+                match self.next(task, before) {
+                    Next::Continue(direction) => direction,
+                    Next::Break(standing) => return Ok(standing),
+                }
+            }
         };
         if !self.go(rover, direction)? {
             return Ok(Standing::UnderWay);
@@ -198,8 +212,7 @@ impl Guide {
     }
 
     /// Lets `rover` look round if its place is unknown. From mid-corridor it first goes to a place,
-    /// without the map: back to the last one if a routine broke off. A rover that makes a number of
-    /// moves is at a place.
+    /// without the map. A rover that makes a number of moves is at a place.
     fn find_footing<V: Rover>(
         &mut self,
         rover: &mut V,
@@ -208,11 +221,9 @@ impl Guide {
         if self.whereabouts != Whereabouts::Unknown {
             return Ok(());
         }
-        let back = self.under_way.map(Direction::opposite);
         if self.until == ExploreUntil::Whole {
-            leave_corridor(rover, back).map_err(MapError::Robot)?;
+            leave_corridor(rover).map_err(MapError::Robot)?;
         }
-        self.under_way = None;
         let seen = rover.look().map_err(MapError::Robot)?;
         if self.observer.is_none() {
             let start = first_place(config, &seen);
@@ -249,17 +260,14 @@ impl Guide {
         }
     }
 
-    /// Remembers that `landmark` was sensed on the rover's last move, from `place`. A place where
-    /// it was sensed is the better spot.
+    /// Remembers that `landmark` was sensed on the rover's last move, from `place`.
     fn recognize_on_way(&mut self, landmark: Option<Landmark>, place: Option<PlaceId>) {
-        if let (Some(landmark), Some(place), Some(last)) = (landmark, place, &self.last)
-            && !matches!(self.spot_of(landmark), Some(LandmarkSpot::Place(_)))
-        {
+        if let (Some(landmark), Some(place), Some(last)) = (landmark, place, &self.last) {
             self.remember(landmark, LandmarkSpot::Way(place, last.direction));
         }
     }
 
-    /// Remembers that the rover broke off at `landmark`, on the way that was under way.
+    /// Remembers that the rover broke off at `landmark`, on the way that is under way.
     pub(super) fn broke_off_at(&mut self, landmark: Landmark) {
         if let (Some(way), Some(observer)) = (self.under_way, self.observer()) {
             let place = observer.place();
@@ -267,9 +275,12 @@ impl Guide {
         }
     }
 
-    /// Remembers where `landmark` is.
+    /// Remembers where `landmark` is, beside where else it was.
     pub(super) fn remember(&mut self, landmark: Landmark, spot: LandmarkSpot) {
-        self.landmarks.insert(landmark, spot);
+        let known = self.spots_of(landmark).any(|known| known == spot);
+        if !known {
+            self.landmarks.entry(landmark).or_default().push(spot);
+        }
     }
 
     /// Lets `rover` go in `direction`, and updates the map. Returns whether it went. If its view
@@ -280,7 +291,8 @@ impl Guide {
         rover: &mut V,
         direction: Direction,
     ) -> Result<bool, MapError<V::Error>> {
-        if self.until == ExploreUntil::Whole && !self.is_where_it_was(rover)? {
+        let begins = self.under_way.is_none();
+        if begins && self.until == ExploreUntil::Whole && !self.is_where_it_was(rover)? {
             self.is_carried = true;
             self.whereabouts = Whereabouts::Unknown;
             return Ok(false);
@@ -289,9 +301,17 @@ impl Guide {
             return Ok(false);
         };
         // If the rover breaks off, it stands between two places.
-        let before = core::mem::replace(&mut self.whereabouts, Whereabouts::Unknown);
         self.under_way = Some(direction);
-        let arrival = rover.go(direction).map_err(MapError::Robot)?;
+        let way = match self.is_turned {
+            true => direction.opposite(),
+            false => direction,
+        };
+        let arrival = rover.go(way).map_err(MapError::Robot)?;
+        self.under_way = None;
+        if core::mem::take(&mut self.is_turned) && is_back(&arrival, observer.config()) {
+            (self.exits, self.look) = (arrival.exits, arrival.look);
+            return Ok(true);
+        }
         let report = observer.step(&observed(observer.config(), direction, &arrival))?;
         (self.exits, self.look) = (arrival.exits, arrival.look.clone());
         self.last = Some(MappedMove {
@@ -300,9 +320,8 @@ impl Guide {
             arrival,
             report,
         });
-        self.under_way = None;
         let history = observer.config().tracks.history;
-        self.whereabouts = before.after_a_move(history);
+        self.whereabouts = self.whereabouts.after_a_move(history);
         self.moves = self.moves.saturating_add(1);
         if self.moves.is_multiple_of(CHECKED) {
             self.doubt = self.doubted();
@@ -349,7 +368,7 @@ impl Guide {
             Task::Explore | Task::Localize => self.wander(),
             Task::Reach(Goal::Place(id)) => self.reach(PlaceId(id)),
             Task::Reach(Goal::Point(_)) => give_up(NO_POINTS),
-            Task::Reach(Goal::Landmark(landmark)) => self.seek(landmark, here),
+            Task::Reach(Goal::Landmark(landmark)) => self.seek(landmark),
         }
     }
 
@@ -368,7 +387,7 @@ impl Guide {
             },
             Task::Localize => self.whereabouts == Whereabouts::Followed && is_sure(observer),
             Task::Reach(Goal::Point(_)) => false,
-            Task::Reach(Goal::Landmark(landmark)) => here == Some(landmark),
+            Task::Reach(Goal::Landmark(_)) => is_at_goal(task, here),
             Task::Reach(Goal::Place(id)) => {
                 let place = observer.map().paths.resolve(PlaceId(id));
                 self.whereabouts.has_moved() && place == Some(observer.place())
@@ -431,7 +450,8 @@ impl Guide {
             // It was put down and believes that it is there: a move will tell.
             return self.wander();
         }
-        let Some(direction) = first_step(observer, to) else {
+        let plan = observer.plan(from, to).unwrap_or_default();
+        let Some(direction) = first_direction(&plan) else {
             let (from, to) = (from.0, to.0);
             return give_up(&format!("no way is known from place {from} to place {to}"));
         };
@@ -439,18 +459,38 @@ impl Guide {
         Next::Continue(direction)
     }
 
-    /// Follows the plan to a landmark. If its spot is unknown, goes where it has never been.
-    fn seek(&mut self, landmark: Landmark, here: Option<Landmark>) -> Next {
-        if let (Some(spot), Some(observer)) = (self.spot_of(landmark), self.observer()) {
-            let (LandmarkSpot::Place(place) | LandmarkSpot::Way(place, _)) = spot;
-            if place == observer.place() && here != Some(landmark) {
-                // It is not where it was, or is found on the way now.
-                self.landmarks.remove(&landmark);
-                if let LandmarkSpot::Way(_, direction) = spot {
-                    self.planner.drop_script();
-                    return Next::Continue(direction);
-                }
-            } else if let Some(direction) = first_step(observer, place) {
+    /// Returns whether a rover that broke off on its way in a direction, `off` m from the rover's
+    /// place, is nearer to the goal of `task` by that place than by the end of the way.
+    fn turns_back(&self, task: Task, way: Direction, off: f64) -> bool {
+        let (Task::Reach(goal), Some(observer)) = (task, self.observer()) else {
+            return false;
+        };
+        let paths = &observer.map().paths;
+        let place = observer.place();
+        let mut links = paths.likely(place);
+        let end = links.find(|(_, link)| link.action == Action(way.index() as u32));
+        let Some(end) = end.map(|(_, link)| link.to) else {
+            return false;
+        };
+        let metres = |from| match goal {
+            Goal::Place(id) => approach(observer, from, PlaceId(id)),
+            Goal::Landmark(landmark) => self.route(from, landmark),
+            Goal::Point(_) => None,
+        };
+        let ahead = observer.map().distance(place, end) - off;
+        let ways = metres(place).zip(metres(end));
+        ways.is_some_and(|(back, on)| off + back.metres < ahead + on.metres)
+    }
+
+    /// Follows the plan to the nearest spot of a landmark that is not sensed here. If none is
+    /// known, goes where it has never been.
+    fn seek(&mut self, landmark: Landmark) -> Next {
+        if let Some(place) = self.observer().map(Observer::place) {
+            self.forget(landmark, LandmarkSpot::Place(place));
+            let route = self.route(place, landmark);
+            if let Some(direction) = route.and_then(|route| route.first) {
+                // On the last leg it is sensed, or is no longer there.
+                self.forget(landmark, LandmarkSpot::Way(place, direction));
                 self.planner.drop_script();
                 return Next::Continue(direction);
             }
@@ -459,6 +499,29 @@ impl Guide {
             return give_up("the landmark is nowhere that it can reach");
         }
         self.go_to_unknown().unwrap_or_else(|| self.wander())
+    }
+
+    /// Returns the shortest route from a place to a spot of a landmark, up to the last place before
+    /// it; `None` if there is none to any.
+    fn route(&self, from: PlaceId, landmark: Landmark) -> Option<Approach> {
+        let observer = self.observer()?;
+        let routes = self.spots_of(landmark).filter_map(|spot| {
+            let (place, last) = match spot {
+                LandmarkSpot::Place(place) => (place, None),
+                LandmarkSpot::Way(place, way) => (place, Some(way)),
+            };
+            let Approach { first, metres } = approach(observer, from, place)?;
+            let first = first.or(last);
+            Some(Approach { first, metres })
+        });
+        routes.min_by(|one, other| one.metres.total_cmp(&other.metres))
+    }
+
+    /// Forgets that a landmark is at a spot.
+    fn forget(&mut self, landmark: Landmark, spot: LandmarkSpot) {
+        let left = self.spots_of(landmark).filter(|known| *known != spot);
+        let left = left.collect();
+        self.landmarks.insert(landmark, left);
     }
 
     /// Takes the next step to an action that was never tried; `None` if no such step leads on from
@@ -475,12 +538,23 @@ impl Guide {
         Some(Next::Continue(direction))
     }
 
-    /// Returns the spot where `landmark` was sensed, by the place's present id.
+    /// Returns a spot where `landmark` was sensed, by the place's present id: a place, if there is
+    /// one.
     pub(super) fn spot_of(&self, landmark: Landmark) -> Option<LandmarkSpot> {
-        let paths = &self.observer()?.map().paths;
-        Some(match *self.landmarks.get(&landmark)? {
-            LandmarkSpot::Place(place) => LandmarkSpot::Place(paths.resolve(place)?),
-            LandmarkSpot::Way(place, way) => LandmarkSpot::Way(paths.resolve(place)?, way),
+        let is_place = |spot: &LandmarkSpot| matches!(spot, LandmarkSpot::Place(_));
+        let spots = || self.spots_of(landmark);
+        spots().find(is_place).or_else(|| spots().last())
+    }
+
+    /// Returns all spots where `landmark` was sensed, by the places' present ids.
+    fn spots_of(&self, landmark: Landmark) -> impl Iterator<Item = LandmarkSpot> + '_ {
+        let paths = self.observer().map(|observer| &observer.map().paths);
+        let spots = self.landmarks.get(&landmark).into_iter().flatten();
+        spots.filter_map(move |spot| {
+            Some(match *spot {
+                LandmarkSpot::Place(place) => LandmarkSpot::Place(paths?.resolve(place)?),
+                LandmarkSpot::Way(place, way) => LandmarkSpot::Way(paths?.resolve(place)?, way),
+            })
         })
     }
 
@@ -500,6 +574,7 @@ impl Guide {
         };
         let place = observer.place().0;
         let at = match (self.whereabouts, observer.tracks().len()) {
+            _ if self.under_way.is_some() => "between places".to_owned(),
             (Whereabouts::Unknown, _) => "between places".to_owned(),
             (_, 1) => format!("at place {place}"),
             (_, tracks) => format!("at place {place}, or at one of {} others", tracks - 1),
@@ -511,16 +586,15 @@ impl Guide {
     }
 }
 
-/// Goes to another place, `back` if possible, from a place that is a doorway at best: only two ways
-/// lead on, in opposite directions.
-fn leave_corridor<V: Rover>(rover: &mut V, back: Option<Direction>) -> Result<(), V::Error> {
-    let axis = match rover.look()?.exits {
-        [true, false, true, false] => [Direction::North, Direction::South],
-        [false, true, false, true] => [Direction::East, Direction::West],
+/// Goes to another place from a place that is a doorway at best: only two ways lead on, in opposite
+/// directions.
+fn leave_corridor<V: Rover>(rover: &mut V) -> Result<(), V::Error> {
+    let way = match rover.look()?.exits {
+        [true, false, true, false] => Direction::North,
+        [false, true, false, true] => Direction::East,
         _ => return Ok(()),
     };
-    let back = back.filter(|back| axis.contains(back));
-    rover.go(back.unwrap_or(axis[0])).map(|_| ())
+    rover.go(way).map(|_| ())
 }
 
 pub(super) fn give_up(why: &str) -> Next {
@@ -545,6 +619,13 @@ fn objection(observer: &Observer) -> Option<MapState> {
     }
 }
 
+/// Returns whether a rover that turned back is where it began. Else the way back has been shut, and
+/// it has come to a dead end.
+fn is_back(arrival: &Arrival, config: &Config) -> bool {
+    let around = PointBox::about(Point::origin(), 2.0 * config.place_radius);
+    around.is_ok_and(|around| (arrival.moved + around).contains(Point::origin()))
+}
+
 /// Returns whether nothing is left to try at any place that a plan leads to. O(places + links ·
 /// log places).
 fn is_explored(observer: &Observer) -> bool {
@@ -560,9 +641,8 @@ fn is_sure(observer: &Observer) -> bool {
     confident.count() == 1
 }
 
-/// Returns the first direction of the plan to a place.
-fn first_step(observer: &Observer, to: PlaceId) -> Option<Direction> {
-    let plan = observer.plan(observer.place(), to)?;
+/// Returns the first direction of a plan.
+fn first_direction(plan: &[PlanStep]) -> Option<Direction> {
     let Action(action) = plan.first()?.action;
     Direction::ALL.get(action as usize).copied()
 }

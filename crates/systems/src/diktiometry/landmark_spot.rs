@@ -23,3 +23,8 @@ pub(super) fn sought(
     let is_at_a_place = matches!(spot_of(landmark), Some(LandmarkSpot::Place(_)));
     (!is_at_a_place).then_some(landmark)
 }
+
+/// Returns whether a robot that senses the landmark `here` is at the landmark of a task.
+pub(super) fn is_at_goal(task: Task, here: Option<Landmark>) -> bool {
+    here.is_some_and(|here| task == Task::Reach(Goal::Landmark(here)))
+}

@@ -15,6 +15,7 @@
 //! Source: S. Engelson, D. McDermott, "Maps Considered as Adaptive Planning Resources", AAAI Fall
 //! Symposium 1992.
 
+mod approach;
 mod corridor;
 mod diktiometer;
 mod errors;
@@ -47,10 +48,12 @@ pub use routine_config::RoutineConfig;
 pub use rover::{Arrival, Rover};
 pub use surveyor::Surveyor;
 
+use approach::{Approach, approach};
 use corridor::{Around, Beside, View, compass, round_scan};
 use guide::{Guide, Next, give_up};
-use landmark_spot::sought;
+use landmark_spot::{is_at_goal, sought};
 use mapped_move::{first_place, observed};
 use place_middle::{Offset, offset};
 use planner::Planner;
 use route_finder::RouteFinder;
+use surveyor::Routine;

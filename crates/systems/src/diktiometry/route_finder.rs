@@ -11,7 +11,7 @@ use tolman_maze::Direction;
 use tolman_planners::{Graph, path_to};
 use tolman_robot::{Goal, Landmark, Standing, Task};
 
-use super::{LandmarkSpot, Next, Rover, first_place, give_up, observed};
+use super::{LandmarkSpot, Next, Rover, first_place, give_up, is_at_goal, observed};
 use crate::brain::NO_POINTS;
 use crate::stream;
 
@@ -23,6 +23,8 @@ pub(super) struct RouteFinder {
     /// Belief; `None` before the rover stands at a place for the first time.
     belief: Option<PlaceBelief>,
     exits: [bool; 4],
+    /// Direction of a routine that broke off between two places.
+    under_way: Option<Direction>,
     /// Actions that differed from the map.
     shut: BTreeSet<(PlaceId, Action)>,
     /// Number of moves since the rover last knew its place.
@@ -47,6 +49,7 @@ impl RouteFinder {
             goal,
             belief: None,
             exits: [false; 4],
+            under_way: None,
             shut: BTreeSet::new(),
             unsure: 0,
             walk: stream(seed, WALK_STREAM),
@@ -57,23 +60,25 @@ impl RouteFinder {
         self.belief.as_ref()
     }
 
-    /// Forgets where it is: it stands between two places.
-    pub(super) fn lose_footing(&mut self) {
-        self.belief = None;
-    }
-
     /// Makes the next move of `task` with `rover`.
     pub(super) fn act<V: Rover>(
         &mut self,
         rover: &mut V,
         task: Task,
     ) -> Result<Standing, V::Error> {
-        if self.belief.is_none() {
-            self.find_footing(rover)?;
-        }
-        let direction = match self.next(task, rover.landmark()) {
-            Next::Continue(direction) => direction,
-            Next::Break(standing) => return Ok(standing),
+        let before = rover.landmark();
+        let direction = match self.under_way {
+            Some(_) if is_at_goal(task, before) => return Ok(Standing::Done),
+            Some(direction) => direction,
+            None => {
+                if self.belief.is_none() {
+                    self.find_footing(rover)?;
+                }
+                match self.next(task, rover.landmark()) {
+                    Next::Continue(direction) => direction,
+                    Next::Break(standing) => return Ok(standing),
+                }
+            }
         };
         self.go(rover, direction)?;
         let here = rover.landmark();
@@ -103,7 +108,9 @@ impl RouteFinder {
 
     /// Lets `rover` go in `direction` and takes in the result.
     fn go<V: Rover>(&mut self, rover: &mut V, direction: Direction) -> Result<(), V::Error> {
+        self.under_way = Some(direction);
         let arrival = rover.go(direction)?;
+        self.under_way = None;
         let seen = observed(self.map.config(), direction, &arrival);
         self.take_in(&seen);
         self.exits = arrival.exits;
@@ -261,7 +268,7 @@ impl RouteFinder {
         match task {
             Task::Explore | Task::Reach(Goal::Point(_)) => false,
             Task::Localize => self.here().or_else(|| self.likeliest()).is_some(),
-            Task::Reach(Goal::Landmark(landmark)) => here == Some(landmark),
+            Task::Reach(Goal::Landmark(_)) => is_at_goal(task, here),
             Task::Reach(Goal::Place(id)) => {
                 let place = self.map.map().paths.resolve(PlaceId(id));
                 place.is_some() && place == self.here()

@@ -20,11 +20,19 @@ pub trait Rover {
     /// If its sensors give nothing.
     fn look(&mut self) -> Result<Arrival, Self::Error>;
 
-    /// Goes in `direction` to the next place and returns what it finds.
+    /// Goes in `direction` to the next place and returns what it finds. After an error it goes on
+    /// with the same routine, and the arrival tells of the whole way. In the opposite direction it
+    /// then turns back, if [`left_behind`](Self::left_behind) tells how far.
     ///
     /// # Errors
     /// If the routine neither ends at a place nor is blocked.
     fn go(&mut self, direction: Direction) -> Result<Arrival, Self::Error>;
+
+    /// Returns the distance to the place that the robot left, m, if it broke off and can turn back
+    /// on its way. The default never turns back.
+    fn left_behind(&self) -> Option<f64> {
+        None
+    }
 
     /// Returns the landmark that the robot senses. The default senses none.
     fn landmark(&self) -> Option<Landmark> {

@@ -21,9 +21,8 @@ pub struct Surveyor<R, E> {
     robot: R,
     eye: E,
     config: RoutineConfig,
-    /// Odometer of the routine under way.
-    odometer: Odometer,
-    /// Number of time steps of the routine under way.
+    routine: Routine,
+    /// Number of time steps of the routine since it began or went on.
     steps: u32,
     /// Number of time steps in a row of which odometry told nothing.
     unseen: u32,
@@ -31,6 +30,37 @@ pub struct Surveyor<R, E> {
     sought: Option<Landmark>,
     /// Landmarks that were sensed.
     passed: Vec<Landmark>,
+}
+
+/// Progress of a routine. One that broke off goes on with it.
+#[derive(Clone, Debug)]
+pub(super) struct Routine {
+    /// Direction of the way; `None` if no routine is under way.
+    direction: Option<Direction>,
+    odometer: Odometer,
+    /// Position on the way, m.
+    along: f64,
+    /// Openings and doorways beside the way; `None` before the robot drives.
+    beside: Option<Beside>,
+    /// Position of the next place on the way, m, once it is known.
+    end: Option<f64>,
+}
+
+impl Routine {
+    /// Begins a routine in `direction`; in none, the robot only looks.
+    fn begin(&mut self, direction: Option<Direction>) {
+        self.odometer.begin();
+        (self.direction, self.along) = (direction, 0.0);
+        (self.beside, self.end) = (None, None);
+    }
+
+    /// Turns back to where the routine began.
+    fn turn_back(&mut self) {
+        self.direction = self.direction.map(Direction::opposite);
+        self.along *= -1.0;
+        let is_beside = self.beside.as_mut().is_some_and(Beside::turn_back);
+        self.end = is_beside.then_some(0.0);
+    }
 }
 
 /// Maximum error of a turn, rad.
@@ -50,7 +80,13 @@ impl<R, E> Surveyor<R, E> {
     pub fn new(robot: R, eye: E, config: RoutineConfig) -> Result<Self, OutOfRange> {
         config.check()?;
         Ok(Self {
-            odometer: Odometer::new(config.odometry_share, config.compass_bound),
+            routine: Routine {
+                direction: None,
+                odometer: Odometer::new(config.odometry_share, config.compass_bound),
+                along: 0.0,
+                beside: None,
+                end: None,
+            },
             robot,
             eye,
             config,
@@ -68,6 +104,20 @@ impl<R, E> Surveyor<R, E> {
             sought: landmark,
             ..self
         }
+    }
+
+    /// Goes on with a routine that broke off when it is asked for the same direction.
+    #[must_use]
+    pub(super) fn going_on(self, routine: Option<Routine>) -> Self {
+        Self {
+            routine: routine.unwrap_or(self.routine),
+            ..self
+        }
+    }
+
+    /// Returns the routine that broke off; `None` if the last one ended.
+    pub(super) fn broken_off(self) -> Option<Routine> {
+        self.routine.direction.is_some().then_some(self.routine)
     }
 
     /// Returns the robot.
@@ -100,46 +150,61 @@ where
     }
 
     /// Follows the corridor `direction` to the middle of the next opening or doorway, or to a wall.
-    fn follow(&mut self, direction: Direction) -> Result<(), RoutineError<R::Error>> {
+    /// Returns whether there is a way at all.
+    fn follow(&mut self, direction: Direction) -> Result<bool, RoutineError<R::Error>> {
         let (gauge, ahead) = (self.config, heading_of(direction));
-        let mut beside = Beside::at_start(self.view(ahead)?, &gauge);
-        let mut along = 0.0;
         self.steps = 0;
-        loop {
+        self.turn_to(ahead)?;
+        if self.routine.beside.is_none() && gauge.is_closed(self.view(ahead)?.ahead) {
+            return Ok(false);
+        }
+        while self.routine.end.is_none() {
             let view = self.view(ahead)?;
+            let along = self.routine.along;
+            let at_start = || Beside::at_start(view, &gauge);
+            let beside = self.routine.beside.get_or_insert_with(at_start);
+            let room = view.ahead - gauge.half();
             if let Some(middle) = beside.see(view, along, &gauge) {
                 // Beginning and end are noticed half a stride late.
-                let middle = middle - 0.5 * gauge.stride();
-                return self.back_up(direction, along, middle);
+                self.routine.end = Some(middle - 0.5 * gauge.stride());
+            } else if room < 0.2 * gauge.stride() {
+                self.routine.end = Some(along);
+            } else {
+                self.drive_on(direction, view, gauge.stride().min(room))?;
             }
-            let room = view.ahead - gauge.half();
-            if room < 0.2 * gauge.stride() {
+        }
+        self.drive_to_end(direction)?;
+        self.settle(ahead)?;
+        Ok(true)
+    }
+
+    /// Drives to the end of the way, backward if the robot is past it.
+    fn drive_to_end(&mut self, direction: Direction) -> Result<(), RoutineError<R::Error>> {
+        let stride = self.config.stride();
+        loop {
+            let Routine { along, end, .. } = self.routine;
+            let left = end.map_or(0.0, |end| end - along);
+            let view = self.view(heading_of(direction))?;
+            let is_shut = left > 0.0 && view.ahead - self.config.half() < 0.2 * stride;
+            if left.abs() <= 0.2 * stride || is_shut {
                 return Ok(());
             }
-            along += self.drive(ahead, view, gauge.stride().min(room))?;
-            self.check_patience(direction)?;
+            self.drive_on(direction, view, left.clamp(-stride, stride))?;
         }
     }
 
-    /// Drives backward against `direction`, from `along` to `middle`. Both are positions on the
-    /// way, m.
-    fn back_up(
+    /// Drives `distance`, m, along the way, and breaks off at the landmark that is sought.
+    fn drive_on(
         &mut self,
         direction: Direction,
-        mut along: f64,
-        middle: f64,
+        view: View,
+        distance: f64,
     ) -> Result<(), RoutineError<R::Error>> {
-        let (stride, ahead) = (self.config.stride(), heading_of(direction));
-        while along - middle > 0.2 * stride {
-            let view = self.view(ahead)?;
-            along += self.drive(ahead, view, -stride.min(along - middle))?;
-            self.check_patience(direction)?;
-        }
-        Ok(())
-    }
-
-    fn check_patience(&self, direction: Direction) -> Result<(), RoutineError<R::Error>> {
+        self.routine.along += self.drive(heading_of(direction), view, distance)?;
         let steps = self.steps;
+        if self.sought.is_some() && self.sought == self.robot.landmark() {
+            return Err(RoutineError::Found);
+        }
         if steps > PATIENCE {
             return Err(RoutineError::Lost { direction, steps });
         }
@@ -182,7 +247,7 @@ where
         let after = self.heading()?;
         if let Some(Odometry { distance, .. }) = rolled {
             self.unseen = 0;
-            self.odometer.roll(distance, before, after)?;
+            self.routine.odometer.roll(distance, before, after)?;
             return Ok(distance);
         }
         self.unseen += 1;
@@ -190,21 +255,18 @@ where
             return Err(SenseError::Blind { sensor: "odometry" }.into());
         }
         let asked = command.translate * self.config.translate_per_step;
-        self.odometer.roll_unseen(asked, before, after)?;
+        self.routine.odometer.roll_unseen(asked, before, after)?;
         Ok(asked)
     }
 
-    /// Makes one time step, and breaks off at the landmark that is sought.
+    /// Makes one time step, and notes the landmark that the robot senses then.
     fn step(&mut self, command: &TurnTranslate) -> Result<(), RoutineError<R::Error>> {
         self.robot.step(command).map_err(RoutineError::Robot)?;
         let here = self.robot.landmark();
         if let Some(landmark) = here.filter(|landmark| !self.passed.contains(landmark)) {
             self.passed.push(landmark);
         }
-        match here {
-            Some(_) if here == self.sought => Err(RoutineError::Found),
-            _ => Ok(()),
-        }
+        Ok(())
     }
 
     /// Returns the heading, once compass and laser give readings.
@@ -251,7 +313,7 @@ where
     /// Ends a routine standing still, and returns the arrival with the view of the place.
     fn arrive(&mut self, outcome: MoveOutcome) -> Result<Arrival, RoutineError<R::Error>> {
         self.step(&TurnTranslate::STOP)?;
-        let moved = self.odometer.moved();
+        let moved = self.routine.odometer.moved();
         self.once_told(|this| {
             Ok(Arrival {
                 outcome,
@@ -302,7 +364,7 @@ where
     type Error = RoutineError<R::Error>;
 
     fn look(&mut self) -> Result<Arrival, Self::Error> {
-        self.odometer.begin();
+        self.routine.begin(None);
         self.arrive(MoveOutcome::Arrived)
     }
 
@@ -310,15 +372,30 @@ where
     /// It turns, drives between the walls, and stops before a wall or in the middle of an opening
     /// or doorway. It takes at most some thousand time steps.
     fn go(&mut self, direction: Direction) -> Result<Arrival, Self::Error> {
-        self.odometer.begin();
-        let ahead = heading_of(direction);
-        self.turn_to(ahead)?;
-        if self.config.is_closed(self.view(ahead)?.ahead) {
-            return self.arrive(MoveOutcome::Blocked);
+        match self.routine.direction {
+            Some(way) if way == direction => {}
+            Some(way) if way == direction.opposite() && self.left_behind().is_some() => {
+                self.routine.turn_back();
+            }
+            _ => self.routine.begin(Some(direction)),
         }
-        self.follow(direction)?;
-        self.settle(ahead)?;
-        self.arrive(MoveOutcome::Arrived)
+        let outcome = match self.follow(direction)? {
+            true => MoveOutcome::Arrived,
+            false => MoveOutcome::Blocked,
+        };
+        let arrival = self.arrive(outcome)?;
+        self.routine.direction = None;
+        Ok(arrival)
+    }
+
+    fn left_behind(&self) -> Option<f64> {
+        let Routine {
+            direction,
+            end,
+            along,
+            ..
+        } = self.routine;
+        (direction.is_some() && end.is_none()).then_some(along)
     }
 
     fn landmark(&self) -> Option<Landmark> {
