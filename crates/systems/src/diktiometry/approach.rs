@@ -57,8 +57,12 @@ impl HopefulWays<'_> {
     /// Returns the untried way at a place by which the goal may be nearest, and how far it is at
     /// least: along corridors, the first of which is as long as two places are apart.
     fn best_hope(&self, place: PlaceId) -> Option<(Direction, f64)> {
-        let there = self.observer.map().related(place, self.to)?.middle().coords;
-        let least = self.observer.config().separation;
+        let config = self.observer.config();
+        let there = self
+            .observer
+            .map()
+            .displacement(place, self.to, &config.search);
+        let (there, least) = (there?.middle().coords, config.separation);
         let untried = self.observer.untried(place).into_iter();
         let ways = untried.filter_map(|Action(action)| Direction::ALL.get(action as usize));
         let hopes = ways.map(|way| {

@@ -211,6 +211,15 @@ mod tests {
     }
 
     #[test]
+    fn what_began_ahead_is_left_behind_by_who_turns_back() {
+        let mut ahead = Beside([Span::Since(1.0), Span::Absent, Span::Absent]);
+        assert!(!ahead.turn_back());
+        assert_eq!(ahead.0[0], Span::Left);
+        let mut behind = Beside([Span::Left, Span::Absent, Span::Absent]);
+        assert!(behind.turn_back());
+    }
+
+    #[test]
     fn a_span_has_a_middle_once_it_has_ended_and_was_long_enough() {
         let mut span = Span::at_start(true);
         assert_eq!(span.see(true, 0.1, 0.3), None);

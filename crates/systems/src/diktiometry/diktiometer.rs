@@ -49,10 +49,10 @@ use crate::{ForRobotError, LaserRobot, OnRobot};
 ///   gives up if the map does not have the landmark, or if its moves do not fit the map for long.
 /// - **Explore**: it gives up.
 ///
-/// A robot that starts in mid-corridor goes to a place before it maps. A routine that broke off goes
-/// on at the next action, to the place where it was to end. With an earlier map it continues as if
-/// the robot stood where the map has it. If the robot was carried elsewhere, places may be made
-/// twice.
+/// A robot that starts in mid-corridor goes to a place before it maps. A routine that broke off
+/// goes on at the next action, or turns back to where it began if that is nearer to the goal. With
+/// an earlier map it continues as if the robot stood where the map has it. If the robot was carried
+/// elsewhere, places may be made twice.
 ///
 /// `E` is the eye by which it tells places apart; the mapper's percepts have to fit it.
 #[derive(Clone, Debug)]
@@ -352,8 +352,9 @@ where
         self.broken_off = rover.broken_off();
         match acted {
             Err(MapError::Robot(RoutineError::Found)) => {
-                let found = sought.filter(|_| self.finder.is_none());
-                found.map(|landmark| self.guide.broke_off_at(landmark));
+                if let (Some(landmark), None) = (sought, &self.finder) {
+                    self.guide.broke_off_at(landmark);
+                }
                 Ok(Standing::Done)
             }
             acted => Ok(acted?),

@@ -529,3 +529,62 @@ fn a_goal_on_the_way_between_two_places_is_found_again() {
     };
     assert!(matches!(&standing, Standing::GaveUp { why } if why.contains("not where")));
 }
+
+#[test]
+fn a_robot_that_broke_off_goes_on_or_turns_back_to_the_place_that_is_asked_for() {
+    let mut robot = Landmarked::new(Scripted::new(PLACES[0], 1.0), amid_the_north);
+    let mut learner = system(2);
+    assert_eq!(
+        pursue(&mut learner, &mut robot, Task::Explore),
+        Standing::Done
+    );
+    let goal = Task::Reach(Goal::Landmark(Landmark::Goal));
+    for end in [PLACES[1], PLACES[2], PLACES[1]] {
+        assert_eq!(pursue(&mut learner, &mut robot, goal), Standing::Done);
+        let map = learner.map();
+        let origin = Point::from(PLACES[0]);
+        let is_end = |place: &&tolman_robot::MapPlace| {
+            let at = place.position.map(|at| origin + at.coords);
+            at.is_some_and(|at| near(at, Point::from(end)))
+        };
+        let id = map.places.iter().find(is_end).unwrap().id;
+        // One routine leads there, either way, and the map stays as it is.
+        let standing = learner.act(&mut robot, Task::Reach(Goal::Place(id)));
+        assert_eq!(standing.unwrap(), Standing::Done);
+        assert!(near(robot.robot().at, Point::from(end)));
+        assert!(is_the_ring(&learner.map(), origin));
+    }
+}
+
+#[test]
+fn a_way_that_was_never_tried_is_hoped_for_and_a_known_world_is_as_planned() {
+    let mut robot = Landmarked::new(Scripted::new(PLACES[0], 1.0), at_the_end);
+    let mut learner = system(2);
+    let mut hopes = 0;
+    loop {
+        let standing = learner.act(&mut robot, Task::Explore).unwrap();
+        let observer = learner.observer().unwrap();
+        let places: Vec<PlaceId> = observer.map().paths.places().map(|(id, _)| id).collect();
+        for to in places {
+            let from = observer.place();
+            let Some(plan) = observer.plan(from, to) else {
+                continue;
+            };
+            let way = approach(observer, from, to).unwrap();
+            assert_eq!(way.first.is_none(), plan.is_empty());
+            let starts = [from].into_iter().chain(plan.iter().map(|step| step.to));
+            let legs = starts.zip(&plan);
+            let legs = legs.map(|(start, step)| observer.map().distance(start, step.to));
+            let known: f64 = legs.sum();
+            assert!(way.metres < known + 0.1, "{way:?}, {known}");
+            hopes += u32::from(way.metres < known - 0.1);
+            if standing == Standing::Done {
+                assert!(way.metres > known - 0.1, "{way:?}, {known}");
+            }
+        }
+        if standing == Standing::Done {
+            break;
+        }
+    }
+    assert!(hopes > 0);
+}
