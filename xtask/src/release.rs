@@ -42,12 +42,7 @@ pub(crate) fn run() -> Result<()> {
         fs::write(folder.join(name), text).with_context(|| format!("cannot write {name}"))
     };
     write("tag.txt", format!("tolman {version}\n\n{notes}"))?;
-    packages::all()?;
-    for package in &ordered {
-        let file = format!("{}.crate", package.stem());
-        let made = target_folder()?.join("package").join(&file);
-        fs::copy(&made, folder.join(&file)).with_context(|| made.display().to_string())?;
-    }
+    // The packages last: their tests take longest.
     let command = dist::run()?;
     let name = command
         .file_name()
@@ -63,6 +58,12 @@ pub(crate) fn run() -> Result<()> {
             .arg(&pages)
             .arg("."),
     )?;
+    packages::all()?;
+    for package in &ordered {
+        let file = format!("{}.crate", package.stem());
+        let made = target_folder()?.join("package").join(&file);
+        fs::copy(&made, folder.join(&file)).with_context(|| made.display().to_string())?;
+    }
     eprintln!("{}", left_to_type(&folder, &version, &ordered));
     Ok(())
 }
