@@ -1,14 +1,12 @@
 use alloc::vec::Vec;
 
-use crate::diktiometry::{
-    Candidate, Config, Diktiometry, Expectation, PlaceId, Projection, WorldKind,
-};
+use crate::diktiometry::{Candidate, Config, Diktiometry, Expectation, PlaceId, Projection};
 
 /// Returns the expectational candidates: "Given a particular current place, the expectational
 /// candidates are those which are predicted by the last action taken from that place." One set.
 /// O(degree · log degree).
 ///
-/// Beyond the paper, in a static world the reverse of the action that led here leads back.
+/// Beyond the paper, the reverse of the action that led here leads back.
 pub(crate) fn expected(
     map: &Diktiometry,
     projection: &Projection,
@@ -29,17 +27,13 @@ pub(crate) fn expected(
     candidates.collect()
 }
 
-/// Returns the places from which the reverse of the action led here. There are none in a changing
-/// world.
+/// Returns the places from which the reverse of the action led here.
 fn back(
     map: &Diktiometry,
     projection: &Projection,
     config: &Config,
 ) -> impl Iterator<Item = PlaceId> {
-    let reverse = match config.world {
-        WorldKind::Static => config.reverse(projection.action),
-        WorldKind::Changing => None,
-    };
+    let reverse = config.reverse(projection.action);
     let incoming = map.paths.incoming(projection.from);
     let back = incoming.filter(move |(_, link)| Some(link.action) == reverse);
     back.map(|(_, link)| link.from)
