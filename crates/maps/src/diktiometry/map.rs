@@ -89,6 +89,16 @@ impl Diktiometry {
         there.map_or(UNRELATED, |there| there.middle().coords.norm())
     }
 
+    /// Returns the cost of a link on a plan, mm: its length. If it lowers the plan's probability of
+    /// success by a factor of e, that costs [`FAILURE`] times as much. In a world that never
+    /// changed, the cheapest plan is the shortest.
+    #[must_use]
+    pub fn cost(&self, id: LinkId, link: &Link) -> u32 {
+        let doubt = -libm::log(self.paths.chance(id).max(LEAST));
+        let metres = self.distance(link.from, link.to) * (1.0 + FAILURE * doubt);
+        (1e3 * metres) as u32
+    }
+
     /// Returns all places that can be reached from `origin` in the reference graph, by id, with
     /// positions for drawing relative to `origin`. O(frames · degree · log frames + places · log
     /// places).
@@ -224,12 +234,9 @@ impl Diktiometry {
         })
     }
 }
-/// Graph for planning: from every place, each action along the link that most probably works now.
-/// The nodes are the ids of places.
-///
-/// A move costs its length. If it lowers the plan's probability of success by a factor of e, that
-/// costs [`FAILURE`] times as much. In a world that never changed, the cheapest plan is the
-/// shortest.
+
+/// Graph for planning: from every place, each action along the link that most probably works now,
+/// at its [cost](Diktiometry::cost). The nodes are the ids of places.
 impl Graph for Diktiometry {
     fn node_count(&self) -> usize {
         self.paths.node_count()
@@ -237,9 +244,7 @@ impl Graph for Diktiometry {
 
     fn for_each_arc(&self, node: u32, mut visit: impl FnMut(u32, u32)) {
         for (id, link) in self.paths.likely(PlaceId(node)) {
-            let doubt = -libm::log(self.paths.chance(id).max(LEAST));
-            let metres = self.distance(link.from, link.to) * (1.0 + FAILURE * doubt);
-            visit(link.to.0, (1e3 * metres) as u32);
+            visit(link.to.0, self.cost(id, link));
         }
     }
 }

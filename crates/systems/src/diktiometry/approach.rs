@@ -6,7 +6,7 @@
 //! ICRA 1994.
 
 use tolman_control::heading_of;
-use tolman_maps::diktiometry::{Action, Observer, PlaceId};
+use tolman_maps::diktiometry::{Action, Link, LinkId, Observer, PlaceId};
 use tolman_maze::Direction;
 use tolman_planners::{Graph, a_star};
 
@@ -19,21 +19,32 @@ pub(super) struct Approach {
     pub(super) metres: f64,
 }
 
-/// Returns the shortest way from one place to another, along ways that are known or hoped for;
-/// `None` if there is none. O(places + links · (degree + log links)).
-pub(super) fn approach(observer: &Observer, from: PlaceId, to: PlaceId) -> Option<Approach> {
+/// Returns the shortest way from one place to another, along ways that are known or hoped for, but
+/// not along those that the rover sees to be shut at its place; `None` if there is none. O(places +
+/// links · (degree + log links)).
+pub(super) fn approach(
+    observer: &Observer,
+    exits: &[bool; 4],
+    from: PlaceId,
+    to: PlaceId,
+) -> Option<Approach> {
     let paths = &observer.map().paths;
     let (from, to) = (paths.resolve(from)?, paths.resolve(to)?);
-    let ways = HopefulWays { observer, to };
+    let ways = HopefulWays {
+        observer,
+        exits,
+        to,
+    };
     let there = ways.hope_node();
     let found = a_star(&ways, from.0, |node| node == to.0 || node == there, |_| 0)?;
     let first = match found.path.get(1) {
         None => None,
         Some(node) if *node == there => ways.best_hope(from).map(|(way, _)| way),
-        Some(node) => paths.likely(from).find_map(|(_, link)| {
-            let Action(action) = link.action;
-            (link.to.0 == *node).then_some(*Direction::ALL.get(action as usize)?)
-        }),
+        Some(node) => {
+            let mut links = ways.open(from);
+            let next = links.find(|(_, link)| link.to.0 == *node);
+            next.and_then(|(_, link)| way_of(link.action))
+        }
     };
     let metres = f64::from(found.cost) / MILLIMETRES;
     Some(Approach { first, metres })
@@ -42,6 +53,7 @@ pub(super) fn approach(observer: &Observer, from: PlaceId, to: PlaceId) -> Optio
 /// The ways of a map, and one from each place with untried ways to a node that stands for `to`.
 struct HopefulWays<'a> {
     observer: &'a Observer,
+    exits: &'a [bool; 4],
     to: PlaceId,
 }
 
@@ -54,6 +66,16 @@ impl HopefulWays<'_> {
         self.observer.map().node_count() as u32
     }
 
+    /// Returns the links that lead on from a place.
+    fn open(&self, place: PlaceId) -> impl Iterator<Item = (LinkId, &Link)> {
+        let is_here = place == self.observer.place();
+        let links = self.observer.map().paths.likely(place);
+        links.filter(move |(_, link)| {
+            let way = way_of(link.action);
+            !is_here || way.is_none_or(|way| self.exits[way.index()])
+        })
+    }
+
     /// Returns the untried way at a place by which the goal may be nearest, and how far it is at
     /// least: along corridors, the first of which is as long as two places are apart.
     fn best_hope(&self, place: PlaceId) -> Option<(Direction, f64)> {
@@ -64,13 +86,16 @@ impl HopefulWays<'_> {
             .displacement(place, self.to, &config.search);
         let (there, least) = (there?.middle().coords, config.separation);
         let untried = self.observer.untried(place).into_iter();
-        let ways = untried.filter_map(|Action(action)| Direction::ALL.get(action as usize));
-        let hopes = ways.map(|way| {
-            let left = there - least * heading_of(*way).unit();
-            (*way, least + left.x.abs() + left.y.abs())
+        let hopes = untried.filter_map(way_of).map(|way| {
+            let left = there - least * heading_of(way).unit();
+            (way, least + left.x.abs() + left.y.abs())
         });
         hopes.min_by(|(_, one), (_, other)| one.total_cmp(other))
     }
+}
+
+fn way_of(Action(action): Action) -> Option<Direction> {
+    Direction::ALL.get(action as usize).copied()
 }
 
 impl Graph for HopefulWays<'_> {
@@ -82,7 +107,9 @@ impl Graph for HopefulWays<'_> {
         if node == self.hope_node() {
             return;
         }
-        self.observer.map().for_each_arc(node, &mut visit);
+        for (id, link) in self.open(PlaceId(node)) {
+            visit(link.to.0, self.observer.map().cost(id, link));
+        }
         if let Some((_, metres)) = self.best_hope(PlaceId(node)) {
             visit(self.hope_node(), (MILLIMETRES * metres) as u32);
         }

@@ -46,6 +46,10 @@ pub(super) struct Guide {
     landmarks: BTreeMap<Landmark, Vec<LandmarkSpot>>,
     /// Number of moves so far.
     moves: u32,
+    /// Number of the last move along each way, in either direction, by the place's id at that time.
+    gone: BTreeMap<(PlaceId, Direction), u32>,
+    /// Landmark that is looked for on known ground, and the move at which that began.
+    patrol: Option<(Landmark, u32)>,
     /// Doubtful state of the map, and the move at which it began.
     doubt: Option<(MapState, u32)>,
     /// Whether the rover was carried elsewhere since the map began.
@@ -123,6 +127,8 @@ impl Guide {
             visited: Vec::new(),
             landmarks: BTreeMap::new(),
             moves: 0,
+            gone: BTreeMap::new(),
+            patrol: None,
             doubt: None,
             is_carried: false,
             is_own_map: false,
@@ -195,14 +201,28 @@ impl Guide {
                 }
             }
         };
+        let end = place.and_then(|place| self.end_of(place, direction));
         if !self.go(rover, direction)? {
             return Ok(Standing::UnderWay);
         }
-        self.visited.push(self.observer().map(Observer::place));
+        let arrived = self.observer().map(Observer::place);
+        self.visited.push(arrived);
         let here = rover.landmark();
-        let passed = rover.passed().iter().copied().map(Some);
-        for landmark in passed.filter(|passed| ![before, here].contains(passed)) {
-            self.recognize_on_way(landmark, place);
+        if let Some(place) = place {
+            let passed = rover.passed();
+            let amid = passed
+                .iter()
+                .filter(|passed| ![before, here].contains(&Some(**passed)));
+            for landmark in amid {
+                self.remember(*landmark, LandmarkSpot::Way(place, direction));
+            }
+            if let (Task::Reach(Goal::Landmark(landmark)), Some(end)) = (task, end)
+                && arrived == Some(end)
+                && !passed.contains(&landmark)
+            {
+                self.forget(landmark, LandmarkSpot::Way(place, direction));
+                self.forget(landmark, LandmarkSpot::Way(end, direction.opposite()));
+            }
         }
         self.recognize(here);
         if self.is_done(task, here) {
@@ -260,13 +280,6 @@ impl Guide {
         }
     }
 
-    /// Remembers that `landmark` was sensed on the rover's last move, from `place`.
-    fn recognize_on_way(&mut self, landmark: Option<Landmark>, place: Option<PlaceId>) {
-        if let (Some(landmark), Some(place), Some(last)) = (landmark, place, &self.last) {
-            self.remember(landmark, LandmarkSpot::Way(place, last.direction));
-        }
-    }
-
     /// Remembers that the rover broke off at `landmark`, on the way that is under way.
     pub(super) fn broke_off_at(&mut self, landmark: Landmark) {
         if let (Some(way), Some(observer)) = (self.under_way, self.observer()) {
@@ -312,7 +325,9 @@ impl Guide {
             (self.exits, self.look) = (arrival.exits, arrival.look);
             return Ok(true);
         }
+        let from = observer.place();
         let report = observer.step(&observed(observer.config(), direction, &arrival))?;
+        let ends = [(from, direction), (observer.place(), direction.opposite())];
         (self.exits, self.look) = (arrival.exits, arrival.look.clone());
         self.last = Some(MappedMove {
             direction,
@@ -323,6 +338,7 @@ impl Guide {
         let history = observer.config().tracks.history;
         self.whereabouts = self.whereabouts.after_a_move(history);
         self.moves = self.moves.saturating_add(1);
+        self.gone.extend(ends.map(|end| (end, self.moves)));
         if self.moves.is_multiple_of(CHECKED) {
             self.doubt = self.doubted();
         }
@@ -459,21 +475,25 @@ impl Guide {
         Next::Continue(direction)
     }
 
+    /// Returns the place to which the way in a direction led; `None` if it was never gone.
+    fn end_of(&self, place: PlaceId, way: Direction) -> Option<PlaceId> {
+        let mut links = self.observer()?.map().paths.likely(place);
+        let link = links.find(|(_, link)| link.action == Action(way.index() as u32));
+        link.map(|(_, link)| link.to)
+    }
+
     /// Returns whether a rover that broke off on its way in a direction, `off` m from the rover's
     /// place, is nearer to the goal of `task` by that place than by the end of the way.
     fn turns_back(&self, task: Task, way: Direction, off: f64) -> bool {
         let (Task::Reach(goal), Some(observer)) = (task, self.observer()) else {
             return false;
         };
-        let paths = &observer.map().paths;
         let place = observer.place();
-        let mut links = paths.likely(place);
-        let end = links.find(|(_, link)| link.action == Action(way.index() as u32));
-        let Some(end) = end.map(|(_, link)| link.to) else {
+        let Some(end) = self.end_of(place, way) else {
             return false;
         };
         let metres = |from| match goal {
-            Goal::Place(id) => approach(observer, from, PlaceId(id)),
+            Goal::Place(id) => approach(observer, &self.exits, from, PlaceId(id)),
             Goal::Landmark(landmark) => self.route(from, landmark),
             Goal::Point(_) => None,
         };
@@ -489,16 +509,41 @@ impl Guide {
             self.forget(landmark, LandmarkSpot::Place(place));
             let route = self.route(place, landmark);
             if let Some(direction) = route.and_then(|route| route.first) {
-                // On the last leg it is sensed, or is no longer there.
-                self.forget(landmark, LandmarkSpot::Way(place, direction));
                 self.planner.drop_script();
                 return Next::Continue(direction);
             }
         }
         if self.observer().is_some_and(is_explored) {
-            return give_up("the landmark is nowhere that it can reach");
+            return self.patrol(landmark);
         }
         self.go_to_unknown().unwrap_or_else(|| self.wander())
+    }
+
+    /// Looks for a landmark where it was not for longest. Gives up once it has gone all ways from a
+    /// place since it began.
+    fn patrol(&mut self, landmark: Landmark) -> Next {
+        let moves = self.moves;
+        let begun = match self.patrol {
+            Some((sought, begun)) if sought == landmark => begun,
+            _ => self.patrol.insert((landmark, moves)).1,
+        };
+        let Some(place) = self.observer().map(Observer::place) else {
+            return give_up("it has no map");
+        };
+        let open = Direction::ALL
+            .into_iter()
+            .filter(|way| self.exits[way.index()]);
+        let gone = |way: &Direction| self.gone.get(&(place, *way)).copied().unwrap_or(0);
+        match open.min_by_key(gone) {
+            Some(way) if gone(&way) <= begun => {
+                self.planner.drop_script();
+                Next::Continue(way)
+            }
+            _ => {
+                self.patrol = None;
+                give_up("the landmark is nowhere that it can reach")
+            }
+        }
     }
 
     /// Returns the shortest route from a place to a spot of a landmark, up to the last place before
@@ -510,7 +555,7 @@ impl Guide {
                 LandmarkSpot::Place(place) => (place, None),
                 LandmarkSpot::Way(place, way) => (place, Some(way)),
             };
-            let Approach { first, metres } = approach(observer, from, place)?;
+            let Approach { first, metres } = approach(observer, &self.exits, from, place)?;
             let first = first.or(last);
             Some(Approach { first, metres })
         });

@@ -570,7 +570,7 @@ fn a_way_that_was_never_tried_is_hoped_for_and_a_known_world_is_as_planned() {
             let Some(plan) = observer.plan(from, to) else {
                 continue;
             };
-            let way = approach(observer, from, to).unwrap();
+            let way = approach(observer, &[true; 4], from, to).unwrap();
             assert_eq!(way.first.is_none(), plan.is_empty());
             let starts = [from].into_iter().chain(plan.iter().map(|step| step.to));
             let legs = starts.zip(&plan);
