@@ -1,12 +1,15 @@
 use alloc::vec::Vec;
 
-use crate::diktiometry::{Candidate, Config, Diktiometry, Expectation, PlaceId, Projection};
+use crate::diktiometry::{
+    Candidate, Config, Diktiometry, Expectation, Identity, PlaceId, Projection, WorldKind,
+};
 
 /// Returns the expectational candidates: "Given a particular current place, the expectational
 /// candidates are those which are predicted by the last action taken from that place." One set.
 /// O(degree · log degree).
 ///
-/// Beyond the paper, the reverse of the action that led here leads back.
+/// Beyond the paper, the reverse of the action that led here leads back, but not in a changing world
+/// by the paper's rule of matching.
 pub(crate) fn expected(
     map: &Diktiometry,
     projection: &Projection,
@@ -33,7 +36,11 @@ fn back(
     projection: &Projection,
     config: &Config,
 ) -> impl Iterator<Item = PlaceId> {
-    let reverse = config.reverse(projection.action);
+    let is_by_the_paper = config.matching.identity == Identity::Meets;
+    let reverse = match (config.world, is_by_the_paper) {
+        (WorldKind::Changing, true) => None,
+        _ => config.reverse(projection.action),
+    };
     let incoming = map.paths.incoming(projection.from);
     let back = incoming.filter(move |(_, link)| Some(link.action) == reverse);
     back.map(|(_, link)| link.from)

@@ -149,7 +149,7 @@ fn looked_at(world: AbstractWorld, look_merge: Use, moves: usize) -> Walk {
 #[test]
 fn looks_close_loops_that_are_too_wide_for_geometry() {
     let walk = |look_merge| {
-        let maze = blocks(7, 0.25, &mut ChaCha8Rng::seed_from_u64(1));
+        let maze = blocks(12, 0.25, &mut ChaCha8Rng::seed_from_u64(1));
         let world = AbstractWorld::from_corridors(&maze, 1.0).painted(5, 1);
         looked_at(world, look_merge, 1000)
     };
