@@ -43,6 +43,7 @@ mod beam;
 mod bearings;
 mod config;
 mod cp_mapper;
+mod detour;
 mod doubt;
 mod environments;
 mod geometry;

@@ -91,7 +91,11 @@ impl Explorer {
             return ControlFlow::Break(Done::OutOfPatience);
         }
         let leg = match aim {
-            Aim::Find(landmark) => self.towards(landmark).or_else(|| self.explore(rng)),
+            Aim::Find(landmark) => match self.detour(landmark) {
+                Some(id) if id == self.mapper.at().junction => self.explore(rng),
+                Some(detour) => self.first_leg(|id| id == detour),
+                None => self.towards(landmark).or_else(|| self.explore(rng)),
+            },
             Aim::Explore => self.explore(rng),
             Aim::Check => self.explore(rng).or_else(|| self.walk_again(rng)),
             Aim::WayBack => self.way_back(rng),
@@ -127,6 +131,14 @@ impl Explorer {
     /// Returns the first leg of the shortest known way to a landmark, or `None` if none is known.
     fn towards(&self, landmark: Landmark) -> Option<Leg> {
         self.first_leg(|id| self.map().has(id, landmark))
+    }
+
+    /// Returns the place with an unknown port by which the way to a landmark of the map may be
+    /// shorter; `None` if no way is known, or none may be shorter.
+    #[must_use]
+    pub fn detour(&self, landmark: Landmark) -> Option<JunctionId> {
+        let map = self.map();
+        map.detour(self.mapper.at(), |id| map.has(id, landmark))
     }
 
     fn first_leg(&self, wanted: impl Fn(JunctionId) -> bool) -> Option<Leg> {

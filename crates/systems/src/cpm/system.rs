@@ -426,11 +426,23 @@ impl Cpm {
         Ok(Standing::UnderWay)
     }
 
-    /// Returns the shortest known way to a goal; `None` if none is known.
+    /// Returns the place with an unknown port by which the way to a goal may be shorter.
+    fn detour(&self, goal: Goal) -> Option<JunctionId> {
+        match goal {
+            Goal::Landmark(landmark) => self.explorer()?.detour(landmark),
+            Goal::Place(_) | Goal::Point(_) => None,
+        }
+    }
+
+    /// Returns the shortest known way to a goal, or to a place from where it may be shorter; `None`
+    /// if none is known.
     fn plan(&self, goal: Goal) -> Option<Plan> {
         let mapper = &self.explorer()?.mapper;
         match goal {
-            Goal::Landmark(landmark) => mapper.plan(landmark),
+            Goal::Landmark(landmark) => match self.detour(goal) {
+                Some(detour) => mapper.map().plan(mapper.at(), |id| id == detour),
+                None => mapper.plan(landmark),
+            },
             Goal::Place(place) => mapper.map().plan(mapper.at(), |id| id == JunctionId(place)),
             Goal::Point(_) => None,
         }
@@ -443,7 +455,14 @@ impl Cpm {
         resting: RestingWalker,
         goal: Goal,
     ) -> CpmResult<Standing, R> {
+        let here = self
+            .explorer()
+            .map(|explorer| explorer.mapper.at().junction);
         match (self.plan(goal), goal) {
+            // An unknown port here may shorten the way.
+            (_, Goal::Landmark(landmark)) if here.is_some() && self.detour(goal) == here => {
+                self.pursue(robot, resting, Aim::Find(landmark))
+            }
             (Some(plan), _) => self.drive(robot, resting, &plan, goal),
             (None, Goal::Landmark(landmark)) => self.pursue(robot, resting, Aim::Find(landmark)),
             (None, Goal::Place(place)) => {

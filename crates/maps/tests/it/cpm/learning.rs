@@ -445,3 +445,27 @@ fn each_map_has_its_share_of_the_probability() {
         "{found:?}"
     );
 }
+
+#[test]
+fn a_detour_leads_to_an_unknown_port_and_may_be_shorter_than_the_known_way() {
+    let mut detours = 0;
+    for (seed, walks) in (0..12).flat_map(|seed| [(seed, 20), (seed, 60), (seed, 400)]) {
+        let world = World::new(5, 0.8, seed);
+        let Learned { mapper, .. } = learned(world, CpMapperConfig::robust(), walks, seed);
+        let map = mapper.map();
+        for landmark in [Landmark::Goal, Landmark::Start] {
+            let Some(detour) = map.detour(mapper.at(), |id| map.has(id, landmark)) else {
+                continue;
+            };
+            assert!(map.junction(detour).unwrap().open_ports().next().is_some());
+            let to_it = map.plan(mapper.at(), |id| id == detour).unwrap();
+            let known = mapper.plan(landmark).map(|plan| plan.length);
+            assert!(
+                known.is_none_or(|known| to_it.length < known),
+                "seed {seed}"
+            );
+            detours += 1;
+        }
+    }
+    assert!(detours > 0);
+}
