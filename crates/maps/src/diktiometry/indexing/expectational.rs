@@ -8,8 +8,8 @@ use crate::diktiometry::{
 /// candidates are those which are predicted by the last action taken from that place." One set.
 /// O(degree · log degree).
 ///
-/// Beyond the paper, the reverse of the action that led here leads back, but not in a changing world
-/// by the paper's rule of matching.
+/// Beyond the paper, the reverse of the action that led here leads back, but not in a changing
+/// world by the paper's rule of matching.
 pub(crate) fn expected(
     map: &Diktiometry,
     projection: &Projection,
