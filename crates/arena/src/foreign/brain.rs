@@ -3,7 +3,8 @@
 // Input holds any bytes: a reader indexes nothing.
 #![cfg_attr(not(test), warn(clippy::indexing_slicing))]
 
-use core::cell::RefCell;
+use alloc::fmt;
+use core::cell::{RefCell, RefMut};
 use core::convert::Infallible;
 
 use serde::de::DeserializeOwned;
@@ -32,7 +33,15 @@ pub struct Hello {
     pub corridor_width: f64,
 }
 
-/// A brain that is a program of its own, in any language.
+/// A program of its own, in any language, that learns a map of a robot's world. `D` drives the
+/// robot. A program that ends, or uses up its [`Budget`], has given up. After that, and after an
+/// error, it is heard no more, and gives up every task.
+pub struct Foreign<D> {
+    pub(super) talk: RefCell<Talk>,
+    pub(super) driver: D,
+}
+
+/// A program that drives its robot.
 ///
 /// It gets a line `{"hello": …}` with [`Hello`] and the version of the protocol. Then it gets one
 /// line for each time step: `{"step": 0, "sensing": …, "landmark": null}`, with the robot's sensing
@@ -41,12 +50,12 @@ pub struct Hello {
 /// task is done; or `{"give_up": "why"}`.
 ///
 /// One that [learns](Self::learning) is also told its task, and asked for its map and belief; the
-/// page `docs/brain.md` has these lines. A program that ends, or uses up its [`Budget`], has given
-/// up. After that, and after an error, it is heard no more, and gives up every task.
-#[derive(Debug)]
-pub struct ForeignBrain {
-    talk: RefCell<Talk>,
-}
+/// page `docs/brain.md` has these lines.
+pub type ForeignBrain = Foreign<Itself>;
+
+/// The driver of a program that drives its robot.
+#[derive(Clone, Copy, Debug)]
+pub struct Itself;
 
 /// Reason why a foreign brain cannot go on.
 #[derive(Debug, Error)]
@@ -156,8 +165,7 @@ impl ForeignBrain {
     /// # Errors
     /// As [`ForeignProgram::start`](super::ForeignProgram::start).
     pub fn start(launch: &Launch<'_>, budget: Budget, hello: Hello) -> Result<Self, LaunchError> {
-        let talk = RefCell::new(Talk::start(launch, budget, hello, false)?);
-        Ok(Self { talk })
+        Self::driven(launch, budget, hello, false, Itself)
     }
 
     /// Starts a program to drive the robot of `hello`, and to learn a map, for which it is asked.
@@ -169,12 +177,80 @@ impl ForeignBrain {
         budget: Budget,
         hello: Hello,
     ) -> Result<Self, LaunchError> {
-        let talk = RefCell::new(Talk::start(launch, budget, hello, true)?);
-        Ok(Self { talk })
+        Self::driven(launch, budget, hello, true, Itself)
     }
 }
 
-impl Mapper for ForeignBrain {
+impl<D> Foreign<D> {
+    pub(super) fn driven(
+        launch: &Launch<'_>,
+        budget: Budget,
+        hello: Hello,
+        learns: bool,
+        driver: D,
+    ) -> Result<Self, LaunchError> {
+        let talk = RefCell::new(Talk::start(launch, budget, hello, learns)?);
+        Ok(Self { talk, driver })
+    }
+
+    /// Returns whether a program that was put down can go on.
+    pub(super) fn goes_on(&mut self) -> Standing {
+        let talk = self.talk.get_mut();
+        talk.put_down();
+        match &talk.failed {
+            Some(why) => Standing::gave_up(why),
+            None => Standing::UnderWay,
+        }
+    }
+
+    /// Returns how a program's task stands after an action. When it has ended, the program gives
+    /// its map.
+    pub(super) fn ended(&mut self, standing: Standing) -> Standing {
+        if standing == Standing::UnderWay {
+            return standing;
+        }
+        let talk = self.talk.get_mut();
+        talk.refresh();
+        match &talk.failed {
+            Some(why) => Standing::gave_up(why),
+            None => standing,
+        }
+    }
+
+    /// Returns how a program's task stands after an error. It is heard no more.
+    pub(super) fn failed(&mut self, error: BrainError) -> Result<Standing, BrainError> {
+        match &error {
+            // Who runs it sees that flag, too.
+            BrainError::Overrun(Overrun::Stop) => return Ok(Standing::UnderWay),
+            // The robot may be out of time.
+            BrainError::Robot { .. } => {}
+            _ => self.talk.get_mut().fail(&error),
+        }
+        match error {
+            BrainError::Overrun(_) | BrainError::Ended(_) => {
+                Ok(Standing::gave_up(error.to_string()))
+            }
+            error => Err(error),
+        }
+    }
+
+    /// Returns what the program was last asked for, and is asked for again if it has learned since.
+    fn asked(&self) -> RefMut<'_, Talk> {
+        let mut talk = self.talk.borrow_mut();
+        talk.refresh();
+        talk
+    }
+}
+
+impl<D> fmt::Debug for Foreign<D> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Foreign")
+            .field("talk", &self.talk)
+            .finish_non_exhaustive()
+    }
+}
+
+impl<D> Mapper for Foreign<D> {
     type Observation = ();
     type Error = Infallible;
 
@@ -183,7 +259,7 @@ impl Mapper for ForeignBrain {
     }
 
     fn map(&self) -> MapView {
-        map(&self.talk)
+        self.asked().map.clone()
     }
 
     fn belief(&self) -> Vec<Guess> {
@@ -202,72 +278,15 @@ impl Mapper for ForeignBrain {
         self.talk.borrow().visit_count()
     }
 
+    /// Returns why the map may be wrong: by the program's own account, or as it has failed.
     fn doubt(&self) -> Option<String> {
-        doubt(&self.talk)
+        let talk = self.asked();
+        talk.failed.clone().or_else(|| talk.verdict.doubt.clone())
     }
 
     fn certainty(&self) -> Option<f64> {
-        certainty(&self.talk)
-    }
-}
-
-/// Returns the program's map, for which it is asked if it has learned since.
-pub(super) fn map(talk: &RefCell<Talk>) -> MapView {
-    let mut talk = talk.borrow_mut();
-    talk.refresh();
-    talk.map.clone()
-}
-
-/// Returns why the program's map may be wrong: by its own account, or as it has failed.
-pub(super) fn doubt(talk: &RefCell<Talk>) -> Option<String> {
-    let mut talk = talk.borrow_mut();
-    talk.refresh();
-    talk.failed.clone().or_else(|| talk.verdict.doubt.clone())
-}
-
-/// Returns the program's probability that its map is right.
-pub(super) fn certainty(talk: &RefCell<Talk>) -> Option<f64> {
-    let mut talk = talk.borrow_mut();
-    talk.refresh();
-    talk.verdict.certainty.filter(|_| talk.failed.is_none())
-}
-
-/// Returns whether a program that was put down can go on.
-pub(super) fn put_down(talk: &RefCell<Talk>) -> Standing {
-    let mut talk = talk.borrow_mut();
-    talk.put_down();
-    match &talk.failed {
-        Some(why) => Standing::gave_up(why),
-        None => Standing::UnderWay,
-    }
-}
-
-/// Returns how a program's task stands after an action. When it has ended, the program gives its
-/// map.
-pub(super) fn ended(talk: &RefCell<Talk>, standing: Standing) -> Standing {
-    if standing == Standing::UnderWay {
-        return standing;
-    }
-    let mut talk = talk.borrow_mut();
-    talk.refresh();
-    match &talk.failed {
-        Some(why) => Standing::gave_up(why),
-        None => standing,
-    }
-}
-
-/// Returns how a program's task stands after an error. It is heard no more.
-pub(super) fn failed(talk: &RefCell<Talk>, error: BrainError) -> Result<Standing, BrainError> {
-    match &error {
-        // Who runs it sees that flag, too.
-        BrainError::Overrun(Overrun::Stop) => return Ok(Standing::UnderWay),
-        // The robot may be out of time.
-        BrainError::Robot { .. } => {}
-        _ => talk.borrow_mut().fail(&error),
-    }
-    match error {
-        BrainError::Overrun(_) | BrainError::Ended(_) => Ok(Standing::gave_up(error.to_string())),
-        error => Err(error),
+        let talk = self.asked();
+        talk.verdict.certainty.filter(|_| talk.failed.is_none())
     }
 }
 
@@ -282,12 +301,12 @@ where
             return Ok(Standing::gave_up(why));
         }
         let acted = self.step(robot, task);
-        let acted = acted.or_else(|error| failed(&self.talk, error))?;
-        Ok(ended(&self.talk, acted))
+        let acted = acted.or_else(|error| self.failed(error))?;
+        Ok(self.ended(acted))
     }
 
     fn put_down(&mut self) -> Standing {
-        put_down(&self.talk)
+        self.goes_on()
     }
 }
 

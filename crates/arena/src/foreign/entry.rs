@@ -111,7 +111,7 @@ impl SystemEntry for ForeignEntry {
                 let better = better_config(course.corridor_width, &config);
                 let driver = better_driver(better, config.ring, stack, setup.seed);
                 let mapper = self.started(|launch| {
-                    Ok(ForeignMapper::start(launch, self.budget, hello, driver)?)
+                    Ok(ForeignMapper::watching(launch, self.budget, hello, driver)?)
                 })?;
                 let sent = setup.sent(self.name, course, robot, mapper);
                 Ok(Box::new(

@@ -1,32 +1,25 @@
 //! Lets a foreign program watch a robot that a system of ours drives.
 
-use alloc::fmt;
-use core::cell::RefCell;
-use core::convert::Infallible;
 use core::time::Duration;
 
 use thiserror::Error;
 use tolman_robot::{
-    Guess, Landmark, LaserSensing, MapView, Mapper, Robot, SensesLandmarks, Standing, System, Task,
-    TurnTranslate, VisitNaming,
+    Landmark, LaserSensing, Robot, SensesLandmarks, Standing, System, Task, TurnTranslate,
 };
 
-use super::brain::{self, BrainError, Hello};
+use super::brain::{BrainError, Foreign, Hello};
 use super::talk::Talk;
 use super::{Budget, Launch, LaunchError};
 use crate::BoxError;
 use crate::mslst::BetterDriver;
 
-/// A mapper that is a program of its own, in any language. MSLST Better drives its robot.
+/// A program that watches a robot that MSLST Better drives.
 ///
 /// It gets the lines of a [`ForeignBrain`](super::ForeignBrain) that
 /// [learns](super::ForeignBrain::learning), and answers only what it is asked for: its belief after
 /// each time step, and its map. The page `docs/brain.md` has the lines. A task ends when the driver
 /// ends it. A robot that was put down is located where the mapper then believes it to be.
-pub struct ForeignMapper {
-    talk: RefCell<Talk>,
-    driver: BetterDriver,
-}
+pub type ForeignMapper = Foreign<BetterDriver>;
 
 /// A robot whose time steps are told to a program.
 struct Watched<'a, R> {
@@ -46,70 +39,24 @@ enum WatchedError {
     Mapper,
 }
 
-impl fmt::Debug for ForeignMapper {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("ForeignMapper")
-            .field("talk", &self.talk)
-            .finish_non_exhaustive()
-    }
-}
-
 impl ForeignMapper {
     /// Starts a program to watch the robot of `hello`, which `driver` drives.
     ///
     /// # Errors
     /// As [`ForeignProgram::start`](super::ForeignProgram::start).
-    pub fn start(
+    pub fn watching(
         launch: &Launch<'_>,
         budget: Budget,
         hello: Hello,
         driver: BetterDriver,
     ) -> Result<Self, LaunchError> {
-        let talk = RefCell::new(Talk::start(launch, budget, hello, true)?);
-        Ok(Self { talk, driver })
+        Self::driven(launch, budget, hello, true, driver)
     }
 
     /// Returns how long the program kept us waiting.
     #[must_use]
     pub fn waited(&self) -> Duration {
         self.talk.borrow().waited()
-    }
-}
-
-impl Mapper for ForeignMapper {
-    type Observation = ();
-    type Error = Infallible;
-
-    fn observe(&mut self, (): &()) -> Result<(), Infallible> {
-        Ok(())
-    }
-
-    fn map(&self) -> MapView {
-        brain::map(&self.talk)
-    }
-
-    fn belief(&self) -> Vec<Guess> {
-        self.talk.borrow().belief.clone()
-    }
-
-    fn visit_naming(&self) -> VisitNaming {
-        VisitNaming::EachStep
-    }
-
-    fn visits(&self) -> Vec<Option<u32>> {
-        self.talk.borrow().visits()
-    }
-
-    fn visit_count(&self) -> usize {
-        self.talk.borrow().visit_count()
-    }
-
-    fn doubt(&self) -> Option<String> {
-        brain::doubt(&self.talk)
-    }
-
-    fn certainty(&self) -> Option<f64> {
-        brain::certainty(&self.talk)
     }
 }
 
@@ -137,7 +84,7 @@ where
             false => self.driver.act(&mut watched, task),
         };
         if let Some(fault) = fault {
-            return Ok(brain::failed(&self.talk, fault)?);
+            return Ok(self.failed(fault)?);
         }
         let is_over = driven? != Standing::UnderWay;
         let is_sure = self.talk.get_mut().is_sure();
@@ -147,13 +94,13 @@ where
             (true, false) => Standing::Done,
             (true, true) => Standing::gave_up("it does not say where it is"),
         };
-        Ok(brain::ended(&self.talk, standing))
+        Ok(self.ended(standing))
     }
 
     fn put_down(&mut self) -> Standing {
         let driver = System::<Watched<'_, R>>::put_down(&mut self.driver);
         match driver {
-            Standing::UnderWay => brain::put_down(&self.talk),
+            Standing::UnderWay => self.goes_on(),
             other => other,
         }
     }

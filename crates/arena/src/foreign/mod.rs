@@ -37,7 +37,7 @@ mod talk;
 mod told;
 mod wire;
 
-pub use brain::{BrainError, ForeignBrain, Hello};
+pub use brain::{BrainError, Foreign, ForeignBrain, Hello, Itself};
 pub use entry::{ForeignEntry, Role};
 #[cfg(target_os = "linux")]
 pub use keeper::keep;
