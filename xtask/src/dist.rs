@@ -12,12 +12,11 @@ use crate::workspace::{cargo, output, succeed, target_folder};
 /// Number of times that the start is measured; the fastest counts.
 const STARTS: u32 = 20;
 
-/// Builds the command with all its Rust features, linked statically, prints its size and how long
-/// it takes to start, and returns its path.
+/// Returns the name of the target for static linking.
 ///
 /// # Errors
-/// If the target for static linking is not installed, or the command does not build or run.
-pub(crate) fn run() -> Result<PathBuf> {
+/// If it is not installed.
+pub(crate) fn target() -> Result<String> {
     let target = format!("{}-unknown-linux-musl", env::consts::ARCH);
     let installed =
         output(Command::new("rustc").args(["--print", "target-libdir", "--target", &target]))?;
@@ -25,6 +24,16 @@ pub(crate) fn run() -> Result<PathBuf> {
         fs::exists(installed.trim())?,
         "the target is missing: rustup target add {target}"
     );
+    Ok(target)
+}
+
+/// Builds the command with all its Rust features, linked statically, prints its size and how long
+/// it takes to start, and returns its path.
+///
+/// # Errors
+/// If the target for static linking is not installed, or the command does not build or run.
+pub(crate) fn run() -> Result<PathBuf> {
+    let target = target()?;
     succeed(cargo("build --release --package tolman --features live --target").arg(&target))?;
     let folder = target_folder()?;
     let made = folder.join(&target).join("release/tolman");

@@ -25,6 +25,11 @@ pub(crate) fn run() -> Result<()> {
         changes.is_empty(),
         "commit or remove these first, since a release is a commit:\n{changes}"
     );
+    // Before anything that takes long.
+    dist::target()?;
+    if let Some(why) = site::missing()? {
+        bail!("{why}");
+    }
     let ordered = packages::in_order()?;
     let version = version(&ordered)?;
     let notes = notes(&read(&root().join("CHANGELOG.md"))?, &version)?;

@@ -71,7 +71,7 @@ fn usual() -> Result<PathBuf> {
 }
 
 /// Returns the tool that is not installed, with the command that installs it.
-fn missing() -> Result<Option<String>> {
+pub(crate) fn missing() -> Result<Option<String>> {
     Ok(match playground::missing()? {
         None => book::missing(),
         why => why,
