@@ -11,10 +11,11 @@ use std::process::Command;
 use std::{env, fs};
 
 use tolman_firmware::{Command as Next, Mouse, Sides};
-use tolman_maze::{Cell, Direction, Maze, Walls};
+use tolman_maze::{Cell, Direction, Grid, Maze, Walls};
 use tolman_planners::speed_run::{
     RunMove, Side, Slalom, SpeedRunConfig, SpeedRunMap, SpeedRunTimes,
 };
+use tolman_planners::{Passages, StepMap, Unknown};
 
 /// Returns the project's mazes of this size.
 fn mazes(side: u16) -> Vec<Maze> {
@@ -31,6 +32,70 @@ fn mazes(side: u16) -> Vec<Maze> {
     mazes
         .filter(|maze| (maze.grid().width(), maze.grid().height()) == (side, side))
         .collect()
+}
+
+/// Returns mazes in which a search has much to look at, of this size: without inner walls, with one
+/// way to and fro or round and round, with a slow way out of the start and all else open, and with
+/// walls by chance.
+fn worst_mazes(side: u16) -> Vec<Maze> {
+    let walled = |is_wall: &mut dyn FnMut(Cell, Direction) -> bool| {
+        let mut maze = Maze::open(Grid::new(side, side));
+        for cell in maze.grid().cells() {
+            for side in [Direction::North, Direction::East] {
+                if maze.grid().neighbour(cell, side).is_some() && is_wall(cell, side) {
+                    maze.set_wall(cell, side, true);
+                }
+            }
+        }
+        maze
+    };
+    let last = side - 1;
+    // Columns that are open in the north and in the south by turns.
+    let comb = move |cell: Cell, side| {
+        side == Direction::East && cell.y != if cell.x % 2 == 0 { last } else { 0 }
+    };
+    // Rings around the middle, each with one opening to the next.
+    let ring = move |cell: Cell| {
+        let inwards = |at: u16| at.min(last - at);
+        inwards(cell.x).min(inwards(cell.y))
+    };
+    let spiral = move |cell: Cell, side| {
+        let next = cell.beyond(side).map_or(0, ring);
+        let gate = if ring(cell).min(next) % 2 == 0 {
+            last / 2
+        } else {
+            last / 2 + 1
+        };
+        next != ring(cell) && !(side == Direction::North && cell.x == gate)
+    };
+    let mut mazes = vec![
+        walled(&mut |_, _| false),
+        walled(&mut { comb }),
+        walled(&mut { spiral }),
+        walled(&mut |cell, side| cell.x < 4 && comb(cell, side)),
+    ];
+    let goals: Vec<Cell> = mazes[0].grid().middle().collect();
+    for seed in 1_u64.. {
+        let mut state = seed << 32 | 0x9E37_79B9;
+        let mut by_chance = |_, _| {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            state % 16 < 2 + seed % 4
+        };
+        let maze = walled(&mut by_chance);
+        let open = Passages::<32>::new(&maze, Unknown::Closed).unwrap();
+        if StepMap::new(&open, goals.iter().copied())
+            .steps(Cell::new(0, 0))
+            .is_some()
+        {
+            mazes.push(maze);
+        }
+        if mazes.len() == 8 {
+            break;
+        }
+    }
+    mazes
 }
 
 /// Returns the mazes as a header: the goals, and bits of the open sides of each cell.
@@ -168,15 +233,23 @@ impl Size {
     }
 
     fn mazes(self) -> Vec<Maze> {
-        let mazes = mazes(if self == Self::Half { 32 } else { 16 });
+        let mazes = mazes(self.side());
         assert_eq!(mazes.len(), if self == Self::Half { 2 } else { 9 });
         mazes
     }
 
-    fn expected(self) -> String {
+    /// Returns the number of columns and rows.
+    const fn side(self) -> u16 {
         match self {
-            Self::Half => expected::<32>(&self.mazes(), &SpeedRunConfig::half_size()),
-            _ => expected::<16>(&self.mazes(), &SpeedRunConfig::classic()),
+            Self::Half => 32,
+            _ => 16,
+        }
+    }
+
+    fn expected(self, mazes: &[Maze]) -> String {
+        match self {
+            Self::Half => expected::<32>(mazes, &SpeedRunConfig::half_size()),
+            _ => expected::<16>(mazes, &SpeedRunConfig::classic()),
         }
     }
 }
@@ -212,7 +285,7 @@ fn library(size: Size, target: Option<&str>) -> PathBuf {
 
 /// Compiles files of this folder, and returns the program.
 fn program(
-    size: Size,
+    (size, mazes): (Size, &[Maze]),
     compiler: &str,
     name: &str,
     options: &[&str],
@@ -221,7 +294,7 @@ fn program(
     let here = Path::new(env!("CARGO_MANIFEST_DIR"));
     let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}-{}", size.feature()));
     fs::create_dir_all(&out).unwrap();
-    fs::write(out.join("mazes.h"), header(&size.mazes())).unwrap();
+    fs::write(out.join("mazes.h"), header(mazes)).unwrap();
     let program = out.join("main");
     let mut compile = Command::new(compiler);
     compile.args(["-O2", "-Wall", "-Wextra", "-Werror", size.define(), "-I"]);
@@ -265,8 +338,10 @@ fn c_decides_as_rust_does() {
     }
     for size in [Size::Classic, Size::Half] {
         let options = ["main.c", "-lm", "-lpthread", "-ldl"];
-        let program = program(size, "cc", "host", &options, None);
-        assert_eq!(printed(&mut Command::new(program)).0, size.expected());
+        let mazes = size.mazes();
+        let program = program((size, &mazes), "cc", "host", &options, None);
+        let (out, _) = printed(&mut Command::new(program));
+        assert_eq!(out, size.expected(&mazes));
     }
 }
 
@@ -301,7 +376,11 @@ fn has_chip() -> bool {
 
 /// Lets `main.c` run on an emulated chip, and compares what the library needs there with what it
 /// may need: memory with the stack, bytes, and instructions of the longest decision.
-fn a_chip_decides_as_rust_does(size: Size, most_memory: u32, most_instructions: u32) {
+fn a_chip_decides_as_rust_does(
+    (size, mazes, name): (Size, &[Maze], &str),
+    most_memory: u32,
+    most_instructions: u32,
+) {
     if !has_chip() || !is_there("qemu-system-arm") {
         return;
     }
@@ -317,7 +396,8 @@ fn a_chip_decides_as_rust_does(size: Size, most_memory: u32, most_instructions: 
         "chip.c",
     ];
     let options = [&CORE[..], &options].concat();
-    let program = program(size, "arm-none-eabi-gcc", "chip", &options, Some(CHIP));
+    let compiler = "arm-none-eabi-gcc";
+    let program = program((size, mazes), compiler, name, &options, Some(CHIP));
     let mut qemu = Command::new("timeout");
     qemu.args([
         "500",
@@ -328,26 +408,42 @@ fn a_chip_decides_as_rust_does(size: Size, most_memory: u32, most_instructions: 
     ]);
     qemu.args(["-semihosting", "-icount", "shift=4", "-kernel"]);
     let (out, needs) = printed(qemu.arg(program));
-    assert_eq!(out, size.expected());
+    assert_eq!(out, size.expected(mazes));
     let memory = number(&needs, "mouse") + number(&needs, "stack");
-    eprintln!("{}: {memory} bytes of memory, {needs}", size.define());
+    eprintln!("{name} {}: {memory} bytes, {needs}", size.define());
     assert!(memory <= most_memory, "{needs}");
     assert!(number(&needs, "arrive") <= most_instructions, "{needs}");
 }
 
 #[test]
 fn a_chip_decides_as_rust_does_in_classic_mazes() {
-    a_chip_decides_as_rust_does(Size::Classic, 26 << 10, 1_200_000);
+    let size = Size::Classic;
+    a_chip_decides_as_rust_does((size, &size.mazes(), "chip"), 26 << 10, 1_200_000);
 }
 
 #[test]
 fn a_chip_decides_as_rust_does_with_little_memory() {
-    a_chip_decides_as_rust_does(Size::Small, 16 << 10, 1_200_000);
+    let size = Size::Small;
+    a_chip_decides_as_rust_does((size, &size.mazes(), "chip"), 16 << 10, 1_200_000);
 }
 
 #[test]
 fn a_chip_decides_as_rust_does_in_half_size_mazes() {
-    a_chip_decides_as_rust_does(Size::Half, 48 << 10, 6_000_000);
+    let size = Size::Half;
+    a_chip_decides_as_rust_does((size, &size.mazes(), "chip"), 48 << 10, 5_000_000);
+}
+
+/// Eight mazes made to be worse than any of a competition.
+#[test]
+fn decisions_of_a_chip_are_bounded_in_the_worst_mazes() {
+    for (size, most_memory, most_instructions) in [
+        (Size::Classic, 26 << 10, 1_200_000),
+        (Size::Small, 16 << 10, 1_200_000),
+        (Size::Half, 48 << 10, 5_000_000),
+    ] {
+        let mazes = worst_mazes(size.side());
+        a_chip_decides_as_rust_does((size, &mazes, "worst"), most_memory, most_instructions);
+    }
 }
 
 /// Code and constants of all functions, without those of C.
@@ -364,7 +460,7 @@ fn the_library_fits_into_60_kb_of_flash() {
     ];
     let options = [&CORE[..], &options].concat();
     let program = program(
-        Size::Classic,
+        (Size::Classic, &[Maze::open(Grid::new(16, 16))]),
         "arm-none-eabi-gcc",
         "flash",
         &options,

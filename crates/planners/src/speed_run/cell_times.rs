@@ -9,33 +9,40 @@ pub trait CellTimes: Copy {
     /// No goal is in reach.
     const NOWHERE: Self;
 
-    /// Returns the duration of a state, ms, or 2³⁰ if no goal is in reach from it.
-    fn of(&self, state: usize) -> u32;
+    /// Number of states of a cell.
+    const STATES: usize;
 
-    /// Returns whether a state was reached later than at this time, ms, or never. No state was if
-    /// the time cannot be held.
-    fn is_later(&self, state: usize, time: u32) -> bool;
+    /// Returns the duration of a state, ms, or 2³⁰ if no goal is in reach from it. States are
+    /// numbered from cell to cell.
+    fn of(cells: &[Self], state: usize) -> u32;
 
-    /// Sets the duration of a state that was reached later, ms.
-    fn set(&mut self, state: usize, time: u32);
+    /// Returns the time before which a state has to be reached to be reached sooner than it was,
+    /// ms: its duration, or the least time that cannot be held.
+    fn limit(cells: &[Self], state: usize) -> u32;
+
+    /// Sets the duration of a state to one below its [`limit`](Self::limit), ms.
+    fn set(cells: &mut [Self], state: usize, time: u32);
 }
 
 impl<const S: usize> CellTimes for [u32; S] {
     const NOWHERE: Self = [NEVER; S];
+    const STATES: usize = S;
 
     #[inline(always)]
-    fn of(&self, state: usize) -> u32 {
-        self.get(state).copied().unwrap_or(NEVER)
+    fn of(cells: &[Self], state: usize) -> u32 {
+        let time = cells.as_flattened().get(state);
+        time.copied().unwrap_or(NEVER)
     }
 
     #[inline(always)]
-    fn is_later(&self, state: usize, time: u32) -> bool {
-        self.get(state).is_some_and(|slot| time < *slot)
+    fn limit(cells: &[Self], state: usize) -> u32 {
+        let time = cells.as_flattened().get(state);
+        time.copied().unwrap_or(0)
     }
 
     #[inline(always)]
-    fn set(&mut self, state: usize, time: u32) {
-        if let Some(slot) = self.get_mut(state) {
+    fn set(cells: &mut [Self], state: usize, time: u32) {
+        if let Some(slot) = cells.as_flattened_mut().get_mut(state) {
             *slot = time;
         }
     }
@@ -43,24 +50,26 @@ impl<const S: usize> CellTimes for [u32; S] {
 
 impl<const S: usize> CellTimes for [u16; S] {
     const NOWHERE: Self = [u16::MAX; S];
+    const STATES: usize = S;
 
     #[inline(always)]
-    fn of(&self, state: usize) -> u32 {
-        match self.get(state).copied() {
+    fn of(cells: &[Self], state: usize) -> u32 {
+        match cells.as_flattened().get(state).copied() {
             None | Some(u16::MAX) => NEVER,
             Some(time) => time.into(),
         }
     }
 
     #[inline(always)]
-    fn is_later(&self, state: usize, time: u32) -> bool {
+    fn limit(cells: &[Self], state: usize) -> u32 {
         // The largest number stands for all times that cannot be held.
-        self.get(state).is_some_and(|slot| time < u32::from(*slot))
+        let time = cells.as_flattened().get(state);
+        time.copied().map_or(0, u32::from)
     }
 
     #[inline(always)]
-    fn set(&mut self, state: usize, time: u32) {
-        if let Some(slot) = self.get_mut(state) {
+    fn set(cells: &mut [Self], state: usize, time: u32) {
+        if let Some(slot) = cells.as_flattened_mut().get_mut(state) {
             *slot = time as u16;
         }
     }

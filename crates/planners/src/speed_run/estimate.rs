@@ -86,13 +86,13 @@ mod tests {
             let from = Node::numbered(from, state);
             prop_assume!(times.has_halves() || state < 12);
             let before = estimate.of_run(0, from.cell);
-            for (cells, to) in straights(&passages, from, times.has_halves()) {
-                let takes = times.straights_of(from.facing())[cells].into();
+            for (cells, to) in straights::<9, [u32; 16]>(&passages, from, times.has_halves()) {
+                let takes = times.straights_of(from.facing(), times.has_halves())[cells].into();
                 prop_assert!(estimate.of_run(takes, to.cell) >= before);
             }
-            for (slalom, side, to) in turns(&passages, from) {
-                let takes = times.turn_ms(slalom, side).min(1 << 24);
-                prop_assert!(estimate.of_run(takes, to.cell) >= before);
+            for turn in turns::<9, [u32; 16]>(&passages, from) {
+                let takes = times.turn_ms(turn.slalom, turn.side).min(1 << 24);
+                prop_assert!(estimate.of_run(takes, turn.end(from).cell) >= before);
             }
             prop_assert_eq!(estimate.of_run(7, end), 7);
         }

@@ -4,7 +4,7 @@ use tolman_maze::Cell;
 
 use super::buckets::Buckets;
 use super::estimate::Estimate;
-use super::state::{Node, index};
+use super::state::{Node, STATES_PER_CELL, index};
 use super::ways::{line, turns};
 use super::{CellTimes, RunState, SpeedRun, SpeedRunTimes};
 use crate::Passages;
@@ -117,8 +117,8 @@ impl<const N: usize, C: CellTimes> SpeedRunMap<N, C> {
         let mut bucket = 0;
         while let Some(next) = self.buckets.next(bucket) {
             bucket = next;
+            estimate.at_most = last.map_or(NEVER, |last| self.time(last));
             while let Some(cell) = self.buckets.pop(bucket) {
-                estimate.at_most = last.map_or(NEVER, |last| self.time(last));
                 self.settle(cell, &estimate, passages, times);
             }
             if last.is_some_and(|last| times.bucket(self.time(last)) <= bucket) {
@@ -155,25 +155,11 @@ impl<const N: usize, C: CellTimes> SpeedRunMap<N, C> {
         self.time(node.reversed::<N>())
     }
 
-    #[inline(always)]
     fn time(&self, node: Node) -> u32 {
-        let times = self.times.as_flattened().get(node.cell % (N * N));
-        times.map_or(NEVER, |times| times.of(node.state))
-    }
-
-    /// Sets the time to a state.
-    #[inline(always)]
-    fn set(&mut self, node: Node, time: u32) {
-        if let Some(times) = self.times.as_flattened_mut().get_mut(node.cell % (N * N)) {
-            times.set(node.state, time);
+        if node.state >= C::STATES {
+            return NEVER;
         }
-    }
-
-    /// Returns whether a state was reached later than this, and this can be held.
-    #[inline(always)]
-    fn is_later(&self, node: Node, time: u32) -> bool {
-        let times = self.times.as_flattened().get(node.cell % (N * N));
-        times.is_some_and(|times| times.is_later(node.state, time))
+        C::of(self.times.as_flattened(), number::<N, C>(node))
     }
 
     /// Drives on from every waiting state of `cell`.
@@ -185,27 +171,29 @@ impl<const N: usize, C: CellTimes> SpeedRunMap<N, C> {
         passages: &Passages<N>,
         times: &SpeedRunTimes<N>,
     ) {
+        // Without times of states on edges, straights lead from cell to cell.
+        let has_halves = C::STATES == STATES_PER_CELL && times.has_halves();
         let waiting = self.waiting.as_flattened_mut().get_mut(cell % (N * N));
         let mut waiting = waiting.map_or(0, mem::take);
         while waiting != 0 {
             let from = Node::numbered(cell, waiting.trailing_zeros() as usize);
             waiting &= waiting - 1;
-            let time = self.time(from);
+            let time = C::limit(self.times.as_flattened(), number::<N, C>(from));
             self.turn(from, time, estimate, passages, times);
-            let lengths = times.straights_of(from.facing());
-            for (length, to, is_open) in line(passages, from, times.has_halves()) {
-                let best = self.time(to);
+            let lengths = times.straights_of(from.facing(), has_halves);
+            let lengths = lengths.get(1..).unwrap_or_default();
+            let line = line::<N, C>(passages, from, has_halves);
+            for (takes, (to, is_open)) in lengths.iter().zip(line) {
+                let state = number::<N, C>(to);
+                let limit = C::limit(self.times.as_flattened(), state);
                 // A state that was reached no later stays ahead along the whole straight. One
                 // branch for both, because nothing foresees where a straight ends.
-                if !is_open | (best <= time) {
+                if !is_open | (limit <= time) {
                     break;
                 }
-                let takes = lengths.get(length).copied().map_or(NEVER, u32::from);
-                let arrives = time + takes;
-                if self.is_later(to, arrives)
-                    && estimate.of_run(arrives, to.cell) <= estimate.at_most
-                {
-                    self.set(to, arrives);
+                let arrives = time + u32::from(*takes);
+                if arrives < limit.min(estimate.at_most) {
+                    C::set(self.times.as_flattened_mut(), state, arrives);
                     if let Some(waiting) =
                         self.waiting.as_flattened_mut().get_mut(to.cell % (N * N))
                     {
@@ -228,26 +216,34 @@ impl<const N: usize, C: CellTimes> SpeedRunMap<N, C> {
         passages: &Passages<N>,
         times: &SpeedRunTimes<N>,
     ) {
-        for (slalom, side, to) in turns(passages, from) {
-            // Backwards, a turn to the right goes to the left.
-            let arrives = time + times.turn_ms(slalom, side.opposite());
-            self.reach(to, arrives, estimate, times);
+        let state = number::<N, C>(from);
+        for turn in turns::<N, C>(passages, from) {
+            let arrives = time + times.numbered_turn_ms(turn.backwards.into());
+            let end = state.wrapping_add_signed(turn.states.into());
+            // Three of four were reached sooner.
+            if arrives < C::limit(self.times.as_flattened(), end) {
+                self.reach(turn.end(from), arrives, estimate, times);
+            }
         }
     }
 
+    /// Lets a state that is reached sooner than before wait for its bucket, if it can be part of a
+    /// best run.
     #[inline(always)]
     fn reach(&mut self, node: Node, time: u32, estimate: &Estimate<N>, times: &SpeedRunTimes<N>) {
-        // Three of four were reached sooner.
-        if !self.is_later(node, time) {
-            return;
-        }
         let whole = estimate.of_run(time, node.cell);
         if whole <= estimate.at_most {
-            self.set(node, time);
+            C::set(self.times.as_flattened_mut(), number::<N, C>(node), time);
             if let Some(waiting) = self.waiting.as_flattened_mut().get_mut(node.cell % (N * N)) {
                 *waiting |= 1 << node.state;
             }
             self.buckets.insert(times.bucket(whole), node.cell);
         }
     }
+}
+
+/// Returns the number of a state in [`CellTimes`].
+#[inline(always)]
+const fn number<const N: usize, C: CellTimes>(node: Node) -> usize {
+    node.cell % (N * N) * C::STATES + node.state
 }

@@ -72,7 +72,7 @@ impl<const N: usize, C: CellTimes> Iterator for SpeedRun<'_, N, C> {
         }
         let has_halves = times.has_halves();
         let fits = |to: Node, takes: u32| map.time_from(to) + takes == left;
-        let straight = straights(passages, from, has_halves).filter_map(|(length, to)| {
+        let straight = straights::<N, C>(passages, from, has_halves).filter_map(|(length, to)| {
             let length = length as u16;
             let run_move = match from.facing() {
                 Facing::Diagonal(..) => RunMove::Diagonal { cells: length },
@@ -84,7 +84,8 @@ impl<const N: usize, C: CellTimes> Iterator for SpeedRun<'_, N, C> {
             fits(to, times.of(run_move)?).then_some((run_move, to))
         });
         let turn = || {
-            turns(passages, from).find_map(|(slalom, side, to)| {
+            turns::<N, C>(passages, from).find_map(|turn| {
+                let (slalom, side, to) = (turn.slalom, turn.side, turn.end(from));
                 let run_move = RunMove::Turn { slalom, side };
                 fits(to, times.of(run_move)?).then_some((run_move, to))
             })

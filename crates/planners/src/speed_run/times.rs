@@ -31,8 +31,8 @@ pub struct SpeedRunTimes<const N: usize> {
     /// Times of diagonals of 0 … 2 N − 1 half cell diagonals, ms.
     diagonal: [[u16; N]; 2],
     /// Times of the turns to the left and to the right in the order of [`Slalom`], ms; [`NEVER`]
-    /// for those that the mouse does not make.
-    turns: [[u32; 6]; 2],
+    /// for those that the mouse does not make, and for two more: 16 numbers are a mask.
+    turns: [[u32; 8]; 2],
     /// 2¹⁶ by the time of the shortest move.
     bucket_scale: u32,
     /// What the fastest moves take for each cell along an axis, and for each along both axes, 1/16
@@ -67,14 +67,16 @@ impl<const N: usize> SpeedRunTimes<N> {
         let diagonal_ms =
             |halves: usize| milliseconds(config.diagonal, speed, half_diagonal * halves as f64);
 
-        let mut turns = [[NEVER; 6]; 2];
+        let mut turns = [[NEVER; 8]; 2];
         for (turns, side) in turns.iter_mut().zip([Side::Left, Side::Right]) {
             for (turn, slalom) in turns.iter_mut().zip(Slalom::ALL) {
                 *turn = config.turn_ms(slalom, side)?.unwrap_or(NEVER);
             }
         }
         let made = turns.iter().flatten().filter(|ms| **ms != NEVER);
-        let has_halves = turns.iter().any(|[.., fs90]| *fs90 != NEVER);
+        let has_halves = turns
+            .iter()
+            .any(|turns| turns[Slalom::Fs90 as usize] != NEVER);
         let straights = [straight_ms(2 * N - 1), diagonal_ms(2 * N - 1)];
         let longest_ms = made
             .clone()
@@ -167,12 +169,12 @@ impl<const N: usize> SpeedRunTimes<N> {
     }
 
     /// Returns the durations of the straights or diagonals that lead on from a state, by number of
-    /// cells, or of half cells if there are any.
+    /// cells, or of half cells.
     #[inline(always)]
-    pub(super) const fn straights_of(&self, facing: Facing) -> &[u16] {
+    pub(super) const fn straights_of(&self, facing: Facing, has_halves: bool) -> &[u16] {
         match facing {
             Facing::Diagonal(..) => self.diagonals(),
-            Facing::Straight(_) if !self.has_halves => &self.straight,
+            Facing::Straight(_) if !has_halves => &self.straight,
             Facing::Straight(_) | Facing::Edge(_) => self.halves.as_flattened(),
         }
     }
@@ -185,11 +187,14 @@ impl<const N: usize> SpeedRunTimes<N> {
     /// Returns the duration of a turn, ms; [`NEVER`] if the mouse does not make it.
     #[inline(always)]
     pub(super) fn turn_ms(&self, slalom: Slalom, side: Side) -> u32 {
-        let turns = match side {
-            Side::Left => &self.turns[0],
-            Side::Right => &self.turns[1],
-        };
-        turns.get(slalom as usize).copied().unwrap_or(NEVER)
+        self.numbered_turn_ms(turn_number(slalom, side))
+    }
+
+    /// Returns the same for a turn with this [`turn_number`].
+    #[inline(always)]
+    pub(super) fn numbered_turn_ms(&self, number: usize) -> u32 {
+        let turns = self.turns.as_flattened();
+        turns.get(number % 16).copied().unwrap_or(NEVER)
     }
 
     pub(super) const fn per_cell(&self) -> [u32; 2] {
@@ -200,6 +205,11 @@ impl<const N: usize> SpeedRunTimes<N> {
     pub(super) const fn bucket(&self, time: u32) -> usize {
         ((time as u64 * self.bucket_scale as u64) >> 16) as usize
     }
+}
+
+/// Returns the number of a turn: those to the left come first.
+pub(super) const fn turn_number(slalom: Slalom, side: Side) -> usize {
+    side as usize * 8 + slalom as usize
 }
 
 /// Returns the duration of a straight of `length` millimetres, ms, rounded up.

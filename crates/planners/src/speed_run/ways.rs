@@ -1,7 +1,10 @@
 use core::iter;
+use core::marker::PhantomData;
 
+use super::CellTimes;
 use super::moves::{Side, Slalom};
 use super::state::{Facing, Node, STATES_PER_CELL, beside, left, opposite, right};
+use super::times::turn_number;
 use crate::Passages;
 
 /// Number of bits for the ways to one side. Five are used: see [`ends`].
@@ -34,11 +37,29 @@ struct Ways {
     may_end: u8,
 }
 
+/// A turn out of a state, in eight bytes: a search looks at tens of thousands.
 #[derive(Clone, Copy)]
-struct Turn {
-    slalom: Slalom,
-    side: Side,
-    end: Offset,
+pub(super) struct Turn {
+    pub(super) slalom: Slalom,
+    pub(super) side: Side,
+    /// [`turn_number`] of the turn that is driven backwards: one to the other side.
+    pub(super) backwards: u8,
+    /// State in which it ends, and its cell.
+    end_state: u8,
+    end_cells: i16,
+    /// How far its end is from its beginning, if states are numbered from cell to cell.
+    pub(super) states: i16,
+}
+
+impl Turn {
+    #[inline(always)]
+    pub(super) fn end(self, from: Node) -> Node {
+        let end = Offset {
+            cells: self.end_cells,
+            state: self.end_state,
+        };
+        end.from(from)
+    }
 }
 
 /// State at some distance from another.
@@ -83,7 +104,8 @@ const fn ends<const N: usize>(ahead: usize, aside: usize) -> [Node; 5] {
 }
 
 impl Ways {
-    const fn of<const N: usize>(state: usize) -> Self {
+    /// Returns the ways of a state, for maps with `states` times of each cell.
+    const fn of<const N: usize>(state: usize, states: usize) -> Self {
         use Slalom::{F45, F90, F135, F180, Fs90, Fv90};
         let from = Node::numbered(0, state);
         let (ahead, aside, are_turns, slaloms, steps) = match from.facing() {
@@ -139,8 +161,8 @@ impl Ways {
             near: [left_ends[3].cell as i16, right_ends[3].cell as i16],
             are_turns,
             turns: [
-                turns_to(from, left_ends, slaloms, Side::Left),
-                turns_to(from, right_ends, slaloms, Side::Right),
+                turns_to((from, states), left_ends, slaloms, Side::Left),
+                turns_to((from, states), right_ends, slaloms, Side::Right),
             ],
             steps: [step(steps[0]), step(steps[1])],
             halves: [step(halves[0]), step(halves[1])],
@@ -153,31 +175,46 @@ const fn step((side, to, from): (usize, Node, Node)) -> (u8, Offset) {
     (side as u8, Offset::between(from, to))
 }
 
-const fn turns_to(from: Node, ends: [Node; 5], slaloms: [Slalom; 5], side: Side) -> [Turn; SIDE] {
-    let end = Offset::between(from, from);
+const fn turns_to(
+    (from, states): (Node, usize),
+    ends: [Node; 5],
+    slaloms: [Slalom; 5],
+    side: Side,
+) -> [Turn; SIDE] {
     let mut turns = [Turn {
         slalom: Slalom::F90,
         side,
-        end,
+        backwards: 0,
+        end_state: 0,
+        end_cells: 0,
+        states: 0,
     }; SIDE];
     let mut way = 0;
     while way < ends.len() {
-        turns[way].slalom = slaloms[way];
-        turns[way].end = Offset::between(from, ends[way]);
+        let end = Offset::between(from, ends[way]);
+        let states = end.cells * states as i16 + end.state as i16 - from.state as i16;
+        turns[way] = Turn {
+            slalom: slaloms[way],
+            side,
+            backwards: turn_number(slaloms[way], side.opposite()) as u8,
+            end_state: end.state,
+            end_cells: end.cells,
+            states,
+        };
         way += 1;
     }
     turns
 }
 
-/// Ways of each state, in mazes whose rows are `N` cells apart.
-struct Table<const N: usize>;
+/// Ways of each state, in mazes whose rows are `N` cells apart, for maps with these times.
+struct Table<const N: usize, C>(PhantomData<C>);
 
-impl<const N: usize> Table<N> {
+impl<const N: usize, C: CellTimes> Table<N, C> {
     const WAYS: [Ways; 16] = {
-        let mut all = [Ways::of::<N>(0); 16];
+        let mut all = [Ways::of::<N>(0, C::STATES); 16];
         let mut state = 1;
         while state < STATES_PER_CELL {
-            all[state] = Ways::of::<N>(state);
+            all[state] = Ways::of::<N>(state, C::STATES);
             state += 1;
         }
         all
@@ -205,65 +242,72 @@ impl<const N: usize> Passages<N> {
 /// A turn onto a diagonal is made only if the diagonal leads out of the cell it enters: otherwise
 /// nothing could follow.
 #[inline(always)]
-pub(super) fn turns<const N: usize>(
+pub(super) fn turns<const N: usize, C: CellTimes>(
     passages: &Passages<N>,
     node: Node,
-) -> impl Iterator<Item = (Slalom, Side, Node)> {
-    let ways = Table::<N>::ways(node);
+) -> impl Iterator<Item = &'static Turn> {
+    let ways = Table::<N, C>::ways(node);
     let at = |cells: i16| passages.around(node.cell.wrapping_add_signed(cells.into()));
-    let both = |[left, right]: [u32; 2]| left | right << SIDE;
     let [left, right] = ways.aside;
-    let aside = |[to_left, to_right]: [u32; 2]| both([to_left >> left & 1, to_right >> right & 1]);
-
-    let first = (at(0) >> ways.ahead & 1) * BOTH;
-    let second = first & aside([at(ways.next); 2]);
-    let mut open = (first | second << 1) & u32::from(ways.are_turns);
-    if open != 0 {
+    let first = at(0) >> ways.ahead & 1;
+    let mut open = if ways.may_end == 0 {
+        // A diagonal has turns to one side, and the same walls beside it for both.
+        let second = first & at(ways.next) >> left;
+        let on = second & at(ways.far[0]) >> ways.ahead;
+        (first | second << 1 | on << 2) * BOTH
+    } else {
+        let both = |[left, right]: [u32; 2]| left | right << SIDE;
+        let aside =
+            |[to_left, to_right]: [u32; 2]| both([to_left >> left & 1, to_right >> right & 1]);
+        let first = first * BOTH;
+        let second = first & aside([at(ways.next); 2]);
         let far = both(ways.far.map(at));
         let on = second & far >> ways.ahead;
         let round = second & far >> ways.back;
         let again = round & aside(ways.near.map(at));
-        open |= (on << 2 | round << 3 | again << 4) & u32::from(ways.are_turns);
-    }
+        first | second << 1 | on << 2 | round << 3 | again << 4
+    };
+    open &= u32::from(ways.are_turns);
     iter::from_fn(move || {
         if open == 0 {
             return None;
         }
         let way = open.trailing_zeros() as usize;
         open &= open - 1;
-        let turn = ways.turns.as_flattened().get(way % (2 * SIDE))?;
-        Some((turn.slalom, turn.side, turn.end.from(node)))
+        ways.turns.as_flattened().get(way % (2 * SIDE))
     })
 }
 
 /// Returns every length and end of the straights that lead on from `node`, nearest first. Lengths
 /// are in cells; with `has_halves`, those of straights in half cells.
-pub(super) fn straights<const N: usize>(
+pub(super) fn straights<const N: usize, C: CellTimes>(
     passages: &Passages<N>,
     node: Node,
     has_halves: bool,
 ) -> impl Iterator<Item = (usize, Node)> {
-    line(passages, node, has_halves)
-        .map_while(|(cells, to, is_open)| is_open.then_some((cells, to)))
+    let open = line::<N, C>(passages, node, has_halves);
+    (1..).zip(open.map_while(|(to, is_open)| is_open.then_some(to)))
 }
 
-/// Returns what [`straights`] does, and goes on behind walls: each item says whether the straight
-/// is open that far, if it is up to the one before.
+/// Returns the ends that [`straights`] does, and goes on behind walls: each item says whether the
+/// straight is open that far, if it is up to the one before.
 #[inline(always)]
-pub(super) fn line<const N: usize>(
+pub(super) fn line<const N: usize, C: CellTimes>(
     passages: &Passages<N>,
     node: Node,
     has_halves: bool,
-) -> impl Iterator<Item = (usize, Node, bool)> {
-    let ways = Table::<N>::ways(node);
+) -> impl Iterator<Item = (Node, bool)> {
+    let ways = Table::<N, C>::ways(node);
     let [mut step, mut then] = if has_halves { ways.halves } else { ways.steps };
     let mut to = node;
-    (1..).map(move |cells| {
+    let mut sides = passages.around(node.cell);
+    iter::repeat_with(move || {
         let (side, end) = step;
-        let open = passages.around(to.cell) >> side;
+        let open = sides >> side;
         to = end.from(to);
         (step, then) = (then, step);
-        let leads_on = passages.around(to.cell) >> step.0 | u32::from(ways.may_end);
-        (cells, to, open & leads_on & 1 == 1)
+        sides = passages.around(to.cell);
+        let leads_on = sides >> step.0 | u32::from(ways.may_end);
+        (to, open & leads_on & 1 == 1)
     })
 }
