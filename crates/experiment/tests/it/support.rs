@@ -3,7 +3,7 @@
 use core::sync::atomic::{AtomicU64, Ordering};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 use tolman_experiment::{
     Build, Error, Experiment, ExperimentOutcome, Options, Progress, ProgressEvent, execute,
@@ -45,12 +45,21 @@ pub(crate) struct Listener {
     pub(crate) messages: Mutex<Vec<String>>,
     played: AtomicU64,
     stop_after: Option<u64>,
+    /// Counter of figures and replays, and the number after which to stop.
+    stop_at: Option<(Arc<AtomicU64>, u64)>,
 }
 
 impl Listener {
     pub(crate) fn stopping_after(runs: u64) -> Self {
         Self {
             stop_after: Some(runs),
+            ..Self::default()
+        }
+    }
+
+    pub(crate) fn stopping_at(made: &Arc<AtomicU64>, limit: u64) -> Self {
+        Self {
+            stop_at: Some((Arc::clone(made), limit)),
             ..Self::default()
         }
     }
@@ -92,7 +101,9 @@ impl Progress for Listener {
     }
 
     fn stop_requested(&self) -> bool {
+        let made = self.stop_at.as_ref();
         self.stop_after.is_some_and(|limit| self.played() >= limit)
+            || made.is_some_and(|(made, limit)| made.load(Ordering::SeqCst) >= *limit)
     }
 }
 

@@ -25,8 +25,8 @@ use crate::tolerances::{MOUSE_SCORE, MOVES};
 use tolman_arena::micromouse::{Judgement, MAX_STEPS, floor, try_on};
 use tolman_draw::Figure;
 use tolman_experiment::{
-    Beside, BoxError, Entry, Experiment, Fields, Headline, Job, Metric, Options, Procedure, Record,
-    Row, Run, Table, record, require,
+    Beside, BoxError, Easel, Entry, Experiment, Fields, Headline, Job, Metric, Options, Procedure,
+    Record, Row, Run, Table, record, require,
 };
 use tolman_systems::baselines::q_learning::QLearningConfig;
 use tolman_systems::micromouse::Searcher;
@@ -311,8 +311,8 @@ impl Procedure for Micromouse {
         }
     }
 
-    fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
-        let mut figures = figures::of(self, runs)?;
+    fn figures(&self, runs: &[Run], easel: &Easel<'_>) -> Result<Vec<Figure>, BoxError> {
+        let mut figures = easel.draw("paper", figures::TABLE, || figures::of(self, runs))?;
         figures.push(noise::figure(runs));
         Ok(figures)
     }
