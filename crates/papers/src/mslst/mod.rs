@@ -125,7 +125,11 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         hardest: None,
     };
     if papers {
-        mslst.families = vec![Family::drawings(runs, limit), Family::random(runs, limit)];
+        mslst.families = vec![
+            Family::drawings(runs, limit),
+            Family::overlay(runs, limit),
+            Family::random(runs, limit),
+        ];
         let hardest = mslst.hardest.insert(Hardest::new(runs, limit)?);
         tables.insert(0, states::table());
         tables.extend(mslst.families.iter().map(Family::table));
