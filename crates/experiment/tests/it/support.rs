@@ -1,9 +1,10 @@
 //! Temporary folders, and a listener.
 
+use alloc::sync::Arc;
 use core::sync::atomic::{AtomicU64, Ordering};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex};
+use std::sync::Mutex;
 
 use tolman_experiment::{
     Build, Error, Experiment, ExperimentOutcome, Options, Progress, ProgressEvent, execute,
