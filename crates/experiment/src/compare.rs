@@ -145,8 +145,8 @@ fn runs_of(folder: &Path) -> Result<BTreeMap<Key, Run>, Error> {
             line,
             what,
         };
-        let (run, intact) =
-            runs_file::read_line(text.as_bytes()).map_err(|error| refuse(error.to_string()))?;
+        let (run, intact) = runs_file::read_line::<Run>(text.as_bytes())
+            .map_err(|error| refuse(error.to_string()))?;
         intact.map_err(refuse)?;
         let key = (run.table.clone(), run.row.clone(), run.run);
         if runs.insert(key, run).is_some() {

@@ -1,6 +1,6 @@
 //! One paper's tables and how to fill them.
 
-use super::{BoxError, Entry, Error, Fields, Job, Options, Run, Table};
+use super::{BoxError, Easel, Entry, Error, Fields, Job, Options, Run, Table};
 use tolman_draw::Figure;
 use tolman_replay::Replay;
 
@@ -85,12 +85,13 @@ pub trait Procedure: Sync + core::fmt::Debug {
     }
 
     /// Returns pictures in addition to the box plots that every experiment gets. `runs` is complete
-    /// and sorted by table, row and index. [`Run::job`] says how to play a run again.
+    /// and sorted by table, row and index. [`Run::job`] says how to play a run again. What takes
+    /// time is drawn on the easel, which keeps it.
     ///
     /// # Errors
-    /// If a run cannot be played again for its picture.
-    fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
-        let _ = runs;
+    /// If a run cannot be played again for its picture, and errors of the easel.
+    fn figures(&self, runs: &[Run], easel: &Easel<'_>) -> Result<Vec<Figure>, BoxError> {
+        let _ = (runs, easel);
         Ok(Vec::new())
     }
 
@@ -240,12 +241,17 @@ impl Experiment {
 
     /// Returns the pictures of the procedure. If only some tables are filled, figures of several
     /// tables are left out.
-    pub(super) fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
-        let mut figures = self.procedure.figures(runs)?;
-        figures.retain(|figure| {
-            let mut filled = self.tables.iter().filter(|table| table.is_filled());
-            !self.in_part || filled.any(|table| figure.table.as_ref() == Some(&table.name))
-        });
+    pub(super) fn figures(&self, runs: &[Run], easel: &Easel<'_>) -> Result<Vec<Figure>, BoxError> {
+        let mut figures = self.procedure.figures(runs, easel)?;
+        let is_filled =
+            |figure: &Figure| figure.table.as_ref().is_some_and(|name| self.fills(name));
+        figures.retain(|figure| !self.in_part || is_filled(figure));
         Ok(figures)
+    }
+
+    /// Returns whether runs of the table of this name are made.
+    pub(super) fn fills(&self, name: &str) -> bool {
+        let mut filled = self.tables.iter().filter(|table| table.is_filled());
+        filled.any(|table| table.name == name)
     }
 }

@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 
 use super::at::{at, if_there, make_folder, write_whole};
 use super::config_file::ConfigFile;
+use super::pictures::Pictures;
 use super::runs_file::{self, Appender, Runs};
-use super::{Chunk, Error, Experiment, Progress, ProgressEvent};
+use super::{Chunk, Error, Experiment, Progress, ProgressEvent, Run};
 use tolman_draw::Figure;
 
 pub(super) const CONFIG: &str = "config.toml";
@@ -91,8 +92,13 @@ impl Folder {
     }
 
     /// Writes the finished `runs.jsonl`, in order.
-    pub(super) fn write_runs(&self, runs: &[super::Run]) -> Result<(), Error> {
+    pub(super) fn write_runs(&self, runs: &[Run]) -> Result<(), Error> {
         runs_file::write(&self.path.join(RUNS), runs.iter())
+    }
+
+    /// Opens `pictures.jsonl`, for figures of these runs and for replays.
+    pub(super) fn pictures(&self, runs: &[Run]) -> Result<Pictures, Error> {
+        Pictures::open(&self.path.join("pictures.jsonl"), runs)
     }
 
     /// Writes every figure to `figures/NAME.svg` and removes older ones.

@@ -4,7 +4,7 @@ use alloc::collections::BTreeSet;
 
 use rayon::prelude::*;
 
-use super::{Error, Experiment, Job, Progress, Run};
+use super::{Easel, Error, Experiment, Job, Run};
 
 /// Maximum number of runs of each row that are recorded, as many as MSLST's paper made. More would
 /// take little time, but most of the page.
@@ -59,16 +59,16 @@ impl Recorded {
 }
 
 /// Records the first runs of each row, up to [`FIRST`], as long as their replays fit into `budget`
-/// bytes. It works in parallel on the current threads. It plays no run that is unlikely to fit.
-/// `None` if the caller asked to stop.
+/// bytes. It works in parallel on the current threads. It plays no run that is unlikely to fit, and
+/// keeps each finished replay on the easel. `None` if the caller asked to stop.
 pub(super) fn record(
-    experiment: &Experiment,
+    easel: &Easel<'_>,
     runs: &[Run],
     master_seed: u64,
     runs_per_row: u32,
     budget: usize,
-    progress: &dyn Progress,
 ) -> Result<Option<Replays>, Error> {
+    let experiment = easel.experiment;
     let mut replays = Replays {
         budget,
         ..Replays::default()
@@ -82,7 +82,7 @@ pub(super) fn record(
         })?;
     if let Some(shown) = shown {
         let jobs: Vec<Job<'_>> = shown.iter().map(Run::job).collect();
-        let recorded = record_all(experiment, &jobs, progress)?;
+        let recorded = record_all(easel, &jobs)?;
         return Ok(recorded.map(|recorded| {
             replays.carry(recorded, 0);
             replays
@@ -99,7 +99,7 @@ pub(super) fn record(
             .clone()
             .flat_map(|run| jobs_of(experiment, master_seed, run))
             .collect();
-        let Some(recorded) = record_all(experiment, &jobs, progress)? else {
+        let Some(recorded) = record_all(easel, &jobs)? else {
             return Ok(None);
         };
         replays
@@ -125,16 +125,12 @@ pub(super) fn record(
 }
 
 /// Returns the replays of all these runs that have one; `None` if the user stopped.
-fn record_all(
-    experiment: &Experiment,
-    jobs: &[Job<'_>],
-    progress: &dyn Progress,
-) -> Result<Option<Vec<Recorded>>, Error> {
+fn record_all(easel: &Easel<'_>, jobs: &[Job<'_>]) -> Result<Option<Vec<Recorded>>, Error> {
     let recorded: Result<Vec<Option<Recorded>>, Error> = jobs
         .par_iter()
         .with_max_len(1)
-        .filter(|_| !progress.stop_requested())
-        .map(|job| record_one(experiment, job))
+        .filter(|_| !easel.progress.stop_requested())
+        .map(|job| record_one(easel, job))
         .collect();
     let recorded = recorded?;
     let is_whole = recorded.len() == jobs.len();
@@ -176,12 +172,13 @@ fn jobs_of(experiment: &Experiment, master_seed: u64, run: u32) -> impl Iterator
     })
 }
 
-fn record_one(experiment: &Experiment, job: &Job<'_>) -> Result<Option<Recorded>, Error> {
-    let Some(replay) = experiment.replay(job)? else {
-        return Ok(None);
-    };
-    let json = tolman_replay::json(&replay).map_err(|source| Error::run(job, source.into()))?;
-    Ok(Some(Recorded {
+fn record_one(easel: &Easel<'_>, job: &Job<'_>) -> Result<Option<Recorded>, Error> {
+    let json = easel.pictures.replay(job, || {
+        let replay = easel.experiment.replay(job)?;
+        let json = replay.as_ref().map(tolman_replay::json).transpose();
+        json.map_err(|source| Error::run(job, source.into()))
+    })?;
+    Ok(json.map(|json| Recorded {
         table: job.table.to_owned(),
         row: job.row.to_owned(),
         run: job.run,

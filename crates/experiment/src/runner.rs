@@ -7,10 +7,11 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use super::config_file::ConfigFile;
+use super::easel::Stopped;
 use super::folder::Folder;
 use super::runs_file::{Appender, Key, Runs};
 use super::{
-    Analysis, Build, Chunk, Entry, Error, Experiment, Job, Options, Progress, ProgressEvent,
+    Analysis, Build, Chunk, Easel, Entry, Error, Experiment, Job, Options, Progress, ProgressEvent,
     Replays, Run, Summary, check, plots, replays,
 };
 use crate::report;
@@ -223,9 +224,26 @@ impl Runner<'_> {
         let summary = Summary::of(experiment.entry.name, options.seed, &analysis);
         folder.write("summary.json", &summary.to_json()?)?;
         let mut figures = plots::box_plots(experiment, &runs);
-        figures.extend(experiment.figures(&runs).map_err(|source| Error::Figures {
-            name: experiment.entry.name.to_owned(),
-            source,
+        let pictures = folder.pictures(&runs)?;
+        let easel = Easel {
+            experiment,
+            pictures: &pictures,
+            progress,
+        };
+        let interrupted = || Error::Interrupted {
+            done: total,
+            total,
+            folder: path.clone(),
+            command: config.command.clone(),
+        };
+        figures.extend(experiment.figures(&runs, &easel).map_err(|source| {
+            match source.is::<Stopped>() {
+                true => interrupted(),
+                false => Error::Figures {
+                    name: experiment.entry.name.to_owned(),
+                    source,
+                },
+            }
         })?);
         check::figures(experiment, &figures)?;
         folder.write_figures(&figures)?;
@@ -250,16 +268,11 @@ impl Runner<'_> {
         let budget = replays::budget(report::html(&outcome).len());
         let record = || {
             let (runs, seed) = (&outcome.runs, options.seed);
-            replays::record(experiment, runs, seed, runs_per_row, budget, progress)
+            replays::record(&easel, runs, seed, runs_per_row, budget)
         };
-        let replays = threads.install(record)?.ok_or_else(|| Error::Interrupted {
-            done: total,
-            total,
-            folder: path,
-            command: outcome.command.clone(),
-        })?;
-        outcome.replays = replays;
+        outcome.replays = threads.install(record)?.ok_or_else(interrupted)?;
         folder.write("report.html", &report::html(&outcome))?;
+        pictures.finish()?;
         Ok(outcome)
     }
 }

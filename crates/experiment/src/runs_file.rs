@@ -10,13 +10,14 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::at::{at, if_there, write_whole};
 use super::hash::fnv64;
 use super::{Error, Experiment, Progress, ProgressEvent, Remedy, Run, check, run_seed};
 
-/// A line of the file: a run, and the checksum of its text.
+/// A line of a file: a run or a picture, and the checksum of its text.
 #[derive(Serialize, Deserialize)]
 struct Line<R> {
     #[serde(flatten)]
@@ -26,9 +27,11 @@ struct Line<R> {
     checksum: Option<String>,
 }
 
-/// Returns the run of a line, and whether its checksum is right.
-pub(super) fn read_line(line: &[u8]) -> Result<(Run, Intact), serde_json::Error> {
-    let Line { run, checksum }: Line<Run> = serde_json::from_slice(line)?;
+/// Returns the value of a line, and whether its checksum is right.
+pub(super) fn read_line<R: Serialize + DeserializeOwned>(
+    line: &[u8],
+) -> Result<(R, Intact), serde_json::Error> {
+    let Line { run, checksum }: Line<R> = serde_json::from_slice(line)?;
     let computed = checksum_of(&run)?;
     let intact = match checksum {
         Some(written) if written != computed => Err(format!(
@@ -42,7 +45,7 @@ pub(super) fn read_line(line: &[u8]) -> Result<(Run, Intact), serde_json::Error>
 /// `Ok` if a line's values have their checksum; otherwise the fault.
 pub(super) type Intact = Result<(), String>;
 
-fn checksum_of(run: &Run) -> Result<String, serde_json::Error> {
+fn checksum_of(run: &impl Serialize) -> Result<String, serde_json::Error> {
     Ok(format!("{:016x}", fnv64(&serde_json::to_vec(run)?)))
 }
 
@@ -155,7 +158,7 @@ fn parse(
     experiment: &Experiment,
     master: u64,
 ) -> Result<(Key, Run), (String, Option<Key>)> {
-    let (run, intact) = read_line(line).map_err(|error| {
+    let (run, intact) = read_line::<Run>(line).map_err(|error| {
         // The parser saw a single line, so its line number is not that of the file.
         let what = error.to_string();
         let what = what.split(" at line ").next().unwrap_or_default();
@@ -195,8 +198,11 @@ fn key_of(experiment: &Experiment, run: &Run) -> Option<Key> {
     Some((number, row, run.run))
 }
 
-/// Writes a whole file of runs, in order.
-pub(super) fn write<'a>(path: &Path, runs: impl Iterator<Item = &'a Run>) -> Result<(), Error> {
+/// Writes a whole file of lines, in order.
+pub(super) fn write<'a, R: Serialize + 'a>(
+    path: &Path,
+    runs: impl Iterator<Item = &'a R>,
+) -> Result<(), Error> {
     let mut text = Vec::new();
     for run in runs {
         at("write", path, write_line(&mut text, run))?;
@@ -204,14 +210,14 @@ pub(super) fn write<'a>(path: &Path, runs: impl Iterator<Item = &'a Run>) -> Res
     write_whole(path, &text)
 }
 
-fn write_line(out: &mut Vec<u8>, run: &Run) -> io::Result<()> {
+fn write_line(out: &mut Vec<u8>, run: &impl Serialize) -> io::Result<()> {
     let checksum = Some(checksum_of(run)?);
     serde_json::to_writer(&mut *out, &Line { run, checksum })?;
     out.push(b'\n');
     Ok(())
 }
 
-/// A file to which several threads append runs.
+/// A file to which several threads append lines.
 #[derive(Debug)]
 pub(super) struct Appender {
     path: PathBuf,
@@ -228,9 +234,9 @@ impl Appender {
         })
     }
 
-    /// Appends one run. The line is handed to the system at once, so it survives the end of this
-    /// process.
-    pub(super) fn append(&self, run: &Run) -> Result<(), Error> {
+    /// Appends one run or picture. The line is handed to the system at once, so it survives the end
+    /// of this process.
+    pub(super) fn append(&self, run: &impl Serialize) -> Result<(), Error> {
         let mut line = Vec::new();
         let written = write_line(&mut line, run).and_then(|()| {
             // A thread that panicked while it held the file left a whole line or a broken one. The
@@ -238,6 +244,6 @@ impl Appender {
             let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
             file.write_all(&line)
         });
-        at("add a run to", &self.path, written)
+        at("add a line to", &self.path, written)
     }
 }

@@ -39,8 +39,10 @@ mod graph;
 mod graph_mapper;
 mod localize;
 mod memory;
+mod overlay;
 
 pub use graph::{ActionEdge, GraphError, MslstGraph, Node, NodeZone};
 pub use graph_mapper::GraphMapper;
 pub use localize::{Localization, localize};
 pub use memory::{Experience, Memory};
+pub use overlay::overlay;

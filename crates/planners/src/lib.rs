@@ -6,7 +6,7 @@
 //! - [`steps_from`] counts arcs (breadth-first), and [`costs_from`] sums their costs (Dijkstra).
 //! - [`path_to`] lists the nodes of a shortest path. [`path_between`] lists those of a cheapest one
 //!   from both ends, and [`a_star`] by an admissible heuristic. [`best_first`] lists those of any
-//!   path, by the heuristic alone.
+//!   path, by the heuristic alone, and [`depth_first`] without one.
 //! - [`expected_costs`] plans where actions may fail. [`compressed`] removes detours from a path's
 //!   actions.
 //!
@@ -54,6 +54,8 @@ mod breadth_first;
 #[cfg(feature = "alloc")]
 mod compression;
 #[cfg(feature = "alloc")]
+mod depth_first;
+#[cfg(feature = "alloc")]
 mod dijkstra;
 #[cfg(feature = "alloc")]
 mod expected_costs;
@@ -85,6 +87,7 @@ pub use {
     best_first::{Found, a_star, best_first},
     breadth_first::steps_from,
     compression::compressed,
+    depth_first::depth_first,
     dijkstra::costs_from,
     expected_costs::{Decisions, expected_costs},
     path::path_to,

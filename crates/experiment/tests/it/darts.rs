@@ -1,11 +1,14 @@
 //! Players of different skill throw darts until one hits or ten have missed.
 
+use alloc::sync::Arc;
+use core::sync::atomic::{AtomicU64, Ordering};
+
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use tolman_draw::{Figure, FloorPlan, Series, ZoneStyle};
 use tolman_experiment::{
-    Better, BoxError, Correction, Entry, Experiment, Fields, Job, Metric, Procedure, Record, Row,
-    Run, Table, Tolerance, record,
+    Better, BoxError, Correction, Easel, Entry, Experiment, Fields, Job, Metric, Procedure, Record,
+    Row, Run, Table, Tolerance, record,
 };
 use tolman_geom::{Heading, Point, Pose};
 use tolman_replay::{Replay, RobotTrack, Scenery};
@@ -42,6 +45,8 @@ pub(crate) struct Darts {
     pub(crate) reach: f64,
     /// Number of times that a replay repeats the darts.
     pub(crate) replay_length: usize,
+    /// Number of figures and replays that were made so far.
+    pub(crate) made: Arc<AtomicU64>,
 }
 
 impl Darts {
@@ -85,6 +90,7 @@ impl Darts {
             tables: vec![near, far],
             reach: 1.0,
             replay_length: 1,
+            made: Arc::default(),
         }
     }
 
@@ -151,23 +157,14 @@ impl Procedure for Darts {
         Ok(measured.fields()?)
     }
 
-    fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
-        let corners = [(-1.5, -1.5), (1.5, -1.5), (1.5, 1.5), (-1.5, 1.5)];
-        let corners = corners.map(|(x, y)| Point::new(x, y));
-        let walls: Vec<_> = (0..4).map(|i| [corners[i], corners[(i + 1) % 4]]).collect();
-        let mut plan = FloorPlan::of_walls(&walls, 420.0);
-        plan.zone(&corners.map(|corner| corner * 0.15), ZoneStyle::Destination);
-        for (i, row) in (0..).zip(&self.tables[0].rows) {
-            let run = runs
-                .iter()
-                .find(|run| run.row == row.name)
-                .ok_or("no run to draw")?;
-            plan.trajectory(&self.throws(&run.job()), Series(i));
-        }
-        let figure = Figure::new("first-run", "The first run of each player", {
-            plan.drawing("The board with the darts of three players, joined by lines.")
-        });
-        Ok(vec![figure.caption("Ring: first dart. Dot: last dart.")])
+    fn figures(&self, runs: &[Run], easel: &Easel<'_>) -> Result<Vec<Figure>, BoxError> {
+        let near = easel.draw("near", "1 (near)", || {
+            self.board(runs, "1 (near)", "first-run")
+        })?;
+        let far = easel.draw("far", "2 (far)", || {
+            self.board(runs, "2 (far)", "first-far-run")
+        })?;
+        Ok([near, far].concat())
     }
 
     /// Returns the darts of the near board, as if a robot went from one to the next.
@@ -175,6 +172,7 @@ impl Procedure for Darts {
         if job.table != "1 (near)" {
             return Ok(None);
         }
+        self.made.fetch_add(1, Ordering::SeqCst);
         let poses = self.throws(job).into_iter();
         let poses: Vec<Pose> = poses.map(|at| Pose::new(at, Heading::EAST)).collect();
         let long = poses.iter().cycle().take(poses.len() * self.replay_length);
@@ -187,5 +185,27 @@ impl Procedure for Darts {
             Scenery::default(),
             vec![track],
         )))
+    }
+}
+
+impl Darts {
+    fn board(&self, runs: &[Run], table: &str, name: &str) -> Result<[Figure; 1], BoxError> {
+        self.made.fetch_add(1, Ordering::SeqCst);
+        let corners = [(-1.5, -1.5), (1.5, -1.5), (1.5, 1.5), (-1.5, 1.5)];
+        let corners = corners.map(|(x, y)| Point::new(x, y));
+        let walls: Vec<_> = (0..4).map(|i| [corners[i], corners[(i + 1) % 4]]).collect();
+        let mut plan = FloorPlan::of_walls(&walls, 420.0);
+        plan.zone(&corners.map(|corner| corner * 0.15), ZoneStyle::Destination);
+        for (i, row) in (0..).zip(&self.tables[0].rows) {
+            let run = runs
+                .iter()
+                .find(|run| run.is_of(table, &row.name))
+                .ok_or("no run to draw")?;
+            plan.trajectory(&self.throws(&run.job()), Series(i));
+        }
+        let figure = Figure::new(name, "The first run of each player", {
+            plan.drawing("The board with the darts of three players, joined by lines.")
+        });
+        Ok([figure.caption("Ring: first dart. Dot: last dart.")])
     }
 }

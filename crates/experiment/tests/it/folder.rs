@@ -1,11 +1,12 @@
 //! The folder of results: resumed, mended, set aside, refused.
 
+use core::sync::atomic::Ordering;
 use std::fs;
 
 use serde::{Deserialize, Serialize};
 use tolman_experiment::{
     BoxError, Build, Column, Entry, Error, Experiment, Fields, Job, Metric, Options, Procedure,
-    Progress, ProgressEvent, Record, Silent, Table, execute, record, verify,
+    Progress, ProgressEvent, Record, Silent, Table, execute, open, record, verify,
 };
 
 use crate::darts::{DARTS_ENTRY, Darts, Throws};
@@ -87,6 +88,66 @@ fn an_interrupted_experiment_goes_on_where_it_stopped() {
     for file in ["runs.jsonl", "summary.json"] {
         assert_eq!(read(&whole, file), read(&parts, file));
     }
+}
+
+#[test]
+fn figures_and_replays_are_made_once_however_often_they_are_stopped() {
+    let folder = fresh("pictures");
+    let (whole, parts) = (folder.join("whole"), folder.join("parts"));
+    let in_one_go = Darts::new();
+    run(&in_one_go, &options(&whole)).0.unwrap();
+    let all = in_one_go.made.load(Ordering::SeqCst);
+
+    // The first stop is after one of two figures, the second after some of the replays.
+    let darts = Darts::new();
+    for limit in [1, 12] {
+        let listener = Listener::stopping_at(&darts.made, limit);
+        let stopped = execute(&(&darts).into(), &options(&parts), &build(), &listener);
+        let Err(Error::Interrupted { done: 240, .. }) = stopped else {
+            panic!("{stopped:?}");
+        };
+        let made = darts.made.load(Ordering::SeqCst);
+        assert!((limit..all).contains(&made), "{made} of {all}");
+        assert!(!parts.join("report.html").exists());
+    }
+    run(&darts, &options(&parts)).0.unwrap();
+    assert_eq!(darts.made.load(Ordering::SeqCst), all);
+    for file in [
+        "pictures.jsonl",
+        "figures/first-run.svg",
+        "figures/first-far-run.svg",
+    ] {
+        assert_eq!(read(&whole, file), read(&parts, file), "{file}");
+    }
+
+    // Nothing is left to do, until a line is broken or the figures show other runs.
+    run(&darts, &options(&parts)).0.unwrap();
+    assert_eq!(darts.made.load(Ordering::SeqCst), all);
+    let kept = read(&parts, "pictures.jsonl");
+    let broken = kept.replacen("Ring: first dart", "Ring: last dart", 1);
+    fs::write(parts.join("pictures.jsonl"), broken).unwrap();
+    run(&darts, &options(&parts)).0.unwrap();
+    assert_eq!(darts.made.load(Ordering::SeqCst), all + 1);
+    assert_eq!(read(&parts, "pictures.jsonl"), kept);
+    let fewer = Options {
+        runs: Some(30),
+        ..options(&parts)
+    };
+    run(&darts, &fewer).0.unwrap();
+    assert_eq!(darts.made.load(Ordering::SeqCst), all + 3);
+}
+
+#[test]
+fn a_table_that_is_left_out_is_not_drawn() {
+    let out = fresh("left out").join("out");
+    let far = Options {
+        tables: vec!["2 (far)".to_owned()],
+        ..options(&out)
+    };
+    let darts = open(&[DARTS_ENTRY], "darts", &far).unwrap();
+    run(darts, &far).0.unwrap();
+    let kept = read(&out, "pictures.jsonl");
+    assert!(kept.contains("figures far") && !kept.contains("figures near"));
 }
 
 /// Returns a line as versions without checksums wrote it.

@@ -658,6 +658,7 @@ fn figures_are_xml_files_of_their_own() {
         "box-1-throws",
         "box-2-miss",
         "box-2-throws",
+        "first-far-run",
         "first-run",
     ];
     assert_eq!(names, expect.map(|name| format!("{name}.svg")));

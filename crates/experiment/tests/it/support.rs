@@ -1,5 +1,6 @@
 //! Temporary folders, and a listener.
 
+use alloc::sync::Arc;
 use core::sync::atomic::{AtomicU64, Ordering};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -45,12 +46,21 @@ pub(crate) struct Listener {
     pub(crate) messages: Mutex<Vec<String>>,
     played: AtomicU64,
     stop_after: Option<u64>,
+    /// Counter of figures and replays, and the number after which to stop.
+    stop_at: Option<(Arc<AtomicU64>, u64)>,
 }
 
 impl Listener {
     pub(crate) fn stopping_after(runs: u64) -> Self {
         Self {
             stop_after: Some(runs),
+            ..Self::default()
+        }
+    }
+
+    pub(crate) fn stopping_at(made: &Arc<AtomicU64>, limit: u64) -> Self {
+        Self {
+            stop_at: Some((Arc::clone(made), limit)),
             ..Self::default()
         }
     }
@@ -92,7 +102,9 @@ impl Progress for Listener {
     }
 
     fn stop_requested(&self) -> bool {
+        let made = self.stop_at.as_ref();
         self.stop_after.is_some_and(|limit| self.played() >= limit)
+            || made.is_some_and(|(made, limit)| made.load(Ordering::SeqCst) >= *limit)
     }
 }
 

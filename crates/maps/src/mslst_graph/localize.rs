@@ -10,7 +10,8 @@ pub struct Localization {
     pub node: Option<u32>,
     /// All remaining nodes when the search ended, by id.
     pub candidates: Vec<u32>,
-    /// Number of experiences that the remaining nodes match, from the newest on.
+    /// Number of experiences that the remaining nodes match, from the newest on; of an overlay, the
+    /// number of nodes and failed actions.
     pub matched: usize,
 }
 
@@ -63,11 +64,19 @@ pub fn localize(graph: &MslstGraph, memory: &Memory) -> Localization {
         newer = older;
     }
     let candidates: Vec<u32> = list.into_iter().map(|trail| trail.candidate).collect();
-    let nearest = |id: &u32| (graph.distance(*id).unwrap_or(u32::MAX), *id);
-    Localization {
-        node: candidates.iter().copied().min_by_key(nearest),
-        candidates,
-        matched,
+    Localization::of(graph, candidates, matched)
+}
+
+impl Localization {
+    /// Returns the localization of these candidates: the best is the one "with the shortest path to
+    /// a destination node".
+    pub(super) fn of(graph: &MslstGraph, candidates: Vec<u32>, matched: usize) -> Self {
+        let nearest = |id: &u32| (graph.distance(*id).unwrap_or(u32::MAX), *id);
+        Self {
+            node: candidates.iter().copied().min_by_key(nearest),
+            candidates,
+            matched,
+        }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use tolman_maps::mslst_graph::{
-    ActionEdge, GraphError, GraphMapper, Memory, MslstGraph, Node, NodeZone, localize,
+    ActionEdge, GraphError, GraphMapper, Memory, MslstGraph, Node, NodeZone, localize, overlay,
 };
 use tolman_maze::Direction;
 
@@ -73,6 +73,17 @@ fn distances(graph: &MslstGraph) -> Vec<Option<u32>> {
 }
 
 proptest! {
+    #[test]
+    fn a_walk_laid_over_its_own_graph_matches_whole(events in wandering()) {
+        let walked = mapped(&events);
+        let graph = walked.clone().finish();
+        let failed = |node: &Node| node.edges.iter().filter(|edge| edge.head.is_none()).count();
+        let all = graph.len() + graph.nodes().iter().map(failed).sum::<usize>();
+        let found = overlay(&graph, &walked);
+        prop_assert!(found.candidates.contains(&walked.at()));
+        prop_assert_eq!(found.matched, all);
+    }
+
     #[test]
     fn every_edge_is_entered_both_ways(events in wandering()) {
         let graph = mapped(&events).finish();

@@ -15,7 +15,7 @@ use tolman_arena::contest::{Condition, Contest, ContestError, ContestRecord, Mom
 use tolman_arena::registry::{RobotEntry, Schooling};
 use tolman_draw::Figure;
 use tolman_experiment::{
-    BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Record, Run, Table,
+    BoxError, Easel, Entry, Experiment, Fields, Job, Options, Procedure, Record, Run, Table,
 };
 use tolman_replay::Replay;
 
@@ -144,7 +144,7 @@ impl Procedure for Arena {
         ))
     }
 
-    fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+    fn figures(&self, runs: &[Run], _easel: &Easel<'_>) -> Result<Vec<Figure>, BoxError> {
         figures::of(&self.worlds, runs)
     }
 

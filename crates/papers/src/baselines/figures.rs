@@ -5,7 +5,7 @@ use tolman_geom::Point;
 use super::{Baselines, MazeRun, ROWS, Venue};
 use tolman_arena::cast::Agent;
 use tolman_draw::{Figure, Series};
-use tolman_experiment::{BoxError, Run};
+use tolman_experiment::{BoxError, Easel, Run};
 
 /// Maximum number of runs on one plan.
 const SHOWN: usize = 25;
@@ -13,7 +13,11 @@ const SHOWN: usize = 25;
 /// Width of a plan, user units.
 const WIDTH: f64 = 420.0;
 
-pub(super) fn of(experiment: &Baselines, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+pub(super) fn of(
+    experiment: &Baselines,
+    runs: &[Run],
+    easel: &Easel<'_>,
+) -> Result<Vec<Figure>, BoxError> {
     let mut figures = Vec::new();
     for (number, venue) in (1_u32..).zip(&experiment.venues) {
         for (series, row) in (0_u32..).zip(ROWS.map(Agent::name)) {
@@ -21,14 +25,10 @@ pub(super) fn of(experiment: &Baselines, runs: &[Run]) -> Result<Vec<Figure>, Bo
             let of_row: Vec<&Run> = of_row.collect();
             if let Some(middle) = middle(&of_row)? {
                 let name = format!("plan-{number}-{}", series + 1);
-                figures.push(plan(
-                    experiment,
-                    venue,
-                    &name,
-                    &of_row,
-                    middle,
-                    Series(series),
-                )?);
+                let series = Series(series);
+                figures.extend(easel.draw(&name, &venue.table, || {
+                    Ok([plan(experiment, venue, &name, &of_row, middle, series)?])
+                })?);
             }
         }
     }

@@ -16,8 +16,8 @@ use tolman_arena::cast::Agent;
 use tolman_arena::episode::{self, Episode, EpisodeError, Trial};
 use tolman_draw::Figure;
 use tolman_experiment::{
-    BoxError, Correction, Entry, Experiment, Fields, Job, Metric, Options, Procedure, Record, Run,
-    Table,
+    BoxError, Correction, Easel, Entry, Experiment, Fields, Job, Metric, Options, Procedure,
+    Record, Run, Table,
 };
 use tolman_replay::Replay;
 
@@ -113,8 +113,8 @@ impl Procedure for Baselines {
         }
     }
 
-    fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
-        figures::of(self, runs)
+    fn figures(&self, runs: &[Run], easel: &Easel<'_>) -> Result<Vec<Figure>, BoxError> {
+        figures::of(self, runs, easel)
     }
 
     fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, BoxError> {

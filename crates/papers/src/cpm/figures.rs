@@ -9,9 +9,13 @@ use tolman_arena::course::Course;
 use tolman_arena::cpm::TrialRecord;
 use tolman_arena::drawing::cpm as drawing;
 use tolman_draw::{Axis, Chart, Figure, Line, LinePoint, Series};
-use tolman_experiment::{BoxError, FieldsError, Run};
+use tolman_experiment::{BoxError, Easel, FieldsError, Run};
 
-pub(super) fn of(experiment: &Cpm, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+pub(super) fn of(
+    experiment: &Cpm,
+    runs: &[Run],
+    easel: &Easel<'_>,
+) -> Result<Vec<Figure>, BoxError> {
     let mut figures = Vec::new();
     for (number, course) in (1_u32..).zip(&experiment.courses) {
         for (suffix, kind) in [("", "paper"), (BETTER, "better")] {
@@ -24,12 +28,15 @@ pub(super) fn of(experiment: &Cpm, runs: &[Run]) -> Result<Vec<Figure>, BoxError
                 continue;
             };
             figures.push(times(&row, &format!("times-{number}-{kind}"), &runs));
-            let Some((course, record)) = experiment.play(&longest.job())? else {
-                continue;
-            };
-            let name = format!("{number}-{kind}");
-            figures.push(ways(&course, &record, &row, &format!("ways-{name}")));
-            figures.extend(maps(&course, &record, &row, &name));
+            figures.extend(easel.draw(&row, FIGURE_9, || {
+                let Some((course, record)) = experiment.play(&longest.job())? else {
+                    return Ok(Vec::new());
+                };
+                let name = format!("{number}-{kind}");
+                let mut drawn = vec![ways(&course, &record, &row, &format!("ways-{name}"))];
+                drawn.extend(maps(&course, &record, &row, &name));
+                Ok(drawn)
+            })?);
         }
     }
     Ok(figures)

@@ -30,7 +30,8 @@ use tolman_arena::diktiometry::EpuckSurveyConfig;
 use tolman_arena::registry::Schooling;
 use tolman_draw::Figure;
 use tolman_experiment::{
-    Beside, BoxError, Entry, Experiment, Fields, Headline, Job, Options, Procedure, Run, Table,
+    Beside, BoxError, Easel, Entry, Experiment, Fields, Headline, Job, Options, Procedure, Run,
+    Table,
 };
 use tolman_replay::Replay;
 use tolman_systems::baselines::q_learning::QLearningConfig;
@@ -251,8 +252,8 @@ impl Procedure for Cpm {
         (job.table == LOCALIZATION).then(|| localization::maps_of(job))?
     }
 
-    fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
-        figures::of(self, runs)
+    fn figures(&self, runs: &[Run], easel: &Easel<'_>) -> Result<Vec<Figure>, BoxError> {
+        figures::of(self, runs, easel)
     }
 
     fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, BoxError> {

@@ -7,14 +7,18 @@ use crate::plan::mean_with_quartiles;
 use tolman_arena::diktiometry::{Survey, WINDOW};
 use tolman_arena::drawing::diktiometry::{map_over_world, place_marks};
 use tolman_draw::{Axis, Chart, Figure, Line, Series};
-use tolman_experiment::{BoxError, Record, Run};
+use tolman_experiment::{BoxError, Easel, Record, Run};
 
 /// Width of a chart, user units.
 const WIDTH: f64 = 560.0;
 /// Maximum number of rows for which a table gets curves; more would be hard to tell apart.
 const MOST_CURVES: usize = 5;
 
-pub(super) fn of(trials: &[Trial], runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+pub(super) fn of(
+    trials: &[Trial],
+    runs: &[Run],
+    easel: &Easel<'_>,
+) -> Result<Vec<Figure>, BoxError> {
     let mut figures = Vec::new();
     for trial in trials {
         if trial.settings.len() > MOST_CURVES {
@@ -25,7 +29,10 @@ pub(super) fn of(trials: &[Trial], runs: &[Run]) -> Result<Vec<Figure>, BoxError
         for (number, setting) in maps.filter(|(_, setting)| setting.subject == Subject::Map) {
             let first = |run: &&Run| run.is_of(trial.name, setting.row) && run.run == 0;
             if let Some(run) = runs.iter().find(first) {
-                figures.push(map(trial, setting, run, number)?);
+                let name = format!("{} in {}", setting.row, trial.name);
+                figures.extend(easel.draw(&name, trial.name, || {
+                    Ok([map(trial, setting, run, number)?])
+                })?);
             }
         }
     }

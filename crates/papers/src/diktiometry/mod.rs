@@ -17,7 +17,7 @@ use crate::rows::row_of;
 use tolman_arena::diktiometry::{ErrorSummary, NEAR, PlanTrial, Survey, TAIL, WINDOW};
 use tolman_draw::Figure;
 use tolman_experiment::{
-    Beside, BoxError, Correction, Entry, Experiment, Fields, Headline, Job, Metric, Options,
+    Beside, BoxError, Correction, Easel, Entry, Experiment, Fields, Headline, Job, Metric, Options,
     Procedure, Record, Row, Run, Settling, Table, record,
 };
 use tolman_replay::Replay;
@@ -270,8 +270,8 @@ impl Procedure for Diktiometry {
         Ok(run.fields()?)
     }
 
-    fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
-        figures::of(&self.trials, runs)
+    fn figures(&self, runs: &[Run], easel: &Easel<'_>) -> Result<Vec<Figure>, BoxError> {
+        figures::of(&self.trials, runs, easel)
     }
 
     fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, BoxError> {

@@ -14,7 +14,7 @@ use crate::plan::network_graph;
 use crate::rows::row_of;
 
 /// Name of the table.
-const DRIVEN: &str = "driven";
+pub(super) const DRIVEN: &str = "driven";
 
 /// The rows with λ: the middle of the paper's range, and a value that gives as many nodes as our
 /// best maps have.

@@ -22,7 +22,7 @@ use crate::tolerances::MAP_SCORE;
 use serde::Serialize;
 use tolman_draw::Figure;
 use tolman_experiment::{
-    Beside, BoxError, Correction, Entry, Experiment, Fields, Headline, Job, Metric, Options,
+    Beside, BoxError, Correction, Easel, Entry, Experiment, Fields, Headline, Job, Metric, Options,
     Pairwise, Procedure, Record, Row, Run, Table, record,
 };
 
@@ -230,10 +230,10 @@ impl Procedure for GngSlam {
         Some(format!("search {number} of setting {row}"))
     }
 
-    fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
-        let mut figures = figures::of(runs, self.seed)?;
-        figures.extend(self.searches.drawings(runs)?);
-        figures.extend(driven::figures(runs)?);
+    fn figures(&self, runs: &[Run], easel: &Easel<'_>) -> Result<Vec<Figure>, BoxError> {
+        let mut figures = easel.draw("scores", sets::TABLE, || figures::of(runs, self.seed))?;
+        figures.extend(easel.draw("maps", sets::TABLE, || self.searches.drawings(runs))?);
+        figures.extend(easel.draw("driven", driven::DRIVEN, || driven::figures(runs))?);
         figures.extend(online::figures(runs)?);
         Ok(figures)
     }

@@ -4,7 +4,7 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use tolman_maze::{Cell, Maze};
-use tolman_planners::{Arcs, Found, a_star, best_first, path_to};
+use tolman_planners::{Arcs, Found, a_star, best_first, depth_first, path_to};
 
 use super::paper::PaperTable;
 use super::{Fields, Job, Metric, Row, Table};
@@ -23,7 +23,13 @@ const MOST_STEPS: u32 = 1_000_000;
 /// Number of steps between two tests of what was learned.
 const LOOK: u32 = 100;
 
-const ROWS: [&str; 4] = ["breadth-first", "Dijkstra", "A*", "best-first"];
+const ROWS: [&str; 5] = [
+    "breadth-first",
+    "depth-first",
+    "Dijkstra",
+    "A*",
+    "best-first",
+];
 
 record! {
     /// A search in a known maze.
@@ -133,6 +139,7 @@ pub(super) fn plan(paper: &[PaperTable], job: &Job<'_>) -> Result<Fields, BoxErr
             let path = path_to(&cells, source, is_goal);
             path.map(|path| (path.len() as u32 - 1, None))
         }
+        "depth-first" => depth_first(&cells, source, is_goal).map(counted),
         "Dijkstra" => a_star(&cells, source, is_goal, |_| 0).map(counted),
         "A*" => a_star(&cells, source, is_goal, manhattan).map(counted),
         _ => best_first(&cells, source, is_goal, manhattan).map(counted),

@@ -19,7 +19,7 @@ use tolman_systems::micromouse::{
 const WIDTH: f64 = 420.0;
 
 /// Table whose maze is shown, as in the paper.
-const TABLE: &str = "2";
+pub(super) const TABLE: &str = "2";
 
 pub(super) fn of(experiment: &Micromouse, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     let Some(table) = experiment.paper.iter().find(|table| table.name == TABLE) else {

@@ -25,9 +25,10 @@ use crate::tolerances::{MOUSE_SCORE, MOVES};
 use tolman_arena::micromouse::{Judgement, MAX_STEPS, floor, try_on};
 use tolman_draw::Figure;
 use tolman_experiment::{
-    Beside, BoxError, Entry, Experiment, Fields, Headline, Job, Metric, Options, Procedure, Record,
-    Row, Run, Table, record, require,
+    Beside, BoxError, Easel, Entry, Experiment, Fields, Headline, Job, Metric, Options, Procedure,
+    Record, Row, Run, Table, record, require,
 };
+use tolman_maze::Maze;
 use tolman_systems::baselines::q_learning::QLearningConfig;
 use tolman_systems::micromouse::Searcher;
 
@@ -174,6 +175,9 @@ record! {
         ..run: MouseRun,
         /// A thirtieth of the first run's steps plus those of the second run.
         score: Option<f64> => lower("score").tolerance(MOUSE_SCORE),
+        /// The paper's benchmark: a thirtieth of the number of cells plus the steps of the best
+        /// second run.
+        benchmark: f64 => neither("benchmark"),
     }
 }
 
@@ -229,10 +233,12 @@ impl MouseRun {
 }
 
 impl PaperRun {
-    fn of(judgement: &Judgement) -> Self {
+    fn of(judgement: &Judgement, maze: &Maze) -> Self {
+        let cells = maze.grid().cell_count() as f64;
         Self {
             run: MouseRun::of(judgement),
             score: judgement.score,
+            benchmark: cells / 30.0 + f64::from(judgement.optimum),
         }
     }
 
@@ -274,7 +280,8 @@ impl Micromouse {
         let table = self.paper.iter().find(|table| table.name == job.table);
         let row = table.and_then(|table| table.row(job.row));
         let (searcher, maze) = row.ok_or("there is no such run")?;
-        Ok(PaperRun::of(&try_on(maze, searcher, job.seed, |_| {})?.1).fields()?)
+        let judgement = try_on(maze, searcher, job.seed, |_| {})?.1;
+        Ok(PaperRun::of(&judgement, maze).fields()?)
     }
 }
 
@@ -311,8 +318,8 @@ impl Procedure for Micromouse {
         }
     }
 
-    fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
-        let mut figures = figures::of(self, runs)?;
+    fn figures(&self, runs: &[Run], easel: &Easel<'_>) -> Result<Vec<Figure>, BoxError> {
+        let mut figures = easel.draw("paper", figures::TABLE, || figures::of(self, runs))?;
         figures.push(noise::figure(runs));
         Ok(figures)
     }

@@ -213,6 +213,12 @@ impl Contest {
         competitors.filter(|one| one.entrant.learns())
     }
 
+    /// Returns those that learn as the paper does.
+    pub(super) fn faithful(&self) -> impl Iterator<Item = &Competitor> {
+        let competitors = self.competitors.iter();
+        competitors.filter(|one| matches!(one.entrant, Entrant::Mslst(_)))
+    }
+
     fn competitor(&self, job: &Job<'_>) -> Result<&Competitor, BoxError> {
         row_of(job, &self.competitors, |one| one.row == job.row)
     }
@@ -274,11 +280,8 @@ impl Competitor {
         once(ready, || self.entrant.ready(venue, *seed))
     }
 
-    /// Returns map 0 of MSLST; `None` for brains that learn none.
+    /// Returns map 0 of MSLST; `None` for other brains.
     pub(super) fn first_map(&self, venue: &Venue) -> Result<Option<&Learned>, BoxError> {
-        if !self.entrant.learns() {
-            return Ok(None);
-        }
         Ok(self.ready(venue, 0)?.learned())
     }
 }

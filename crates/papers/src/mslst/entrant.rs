@@ -23,6 +23,8 @@ pub(super) enum Entrant {
     Agent(Agent),
     /// MSLST, which learns a map first.
     Mslst(MslstConfig),
+    /// MSLST that overlays a second graph to localize.
+    Overlay(MslstConfig),
     /// The better system, on sensors with errors.
     Better,
 }
@@ -34,6 +36,7 @@ pub(super) enum Ready {
     Mslst {
         learned: Box<Learned>,
         config: MslstConfig,
+        overlays: bool,
     },
     Better(Box<BetterLearned>),
 }
@@ -63,6 +66,7 @@ impl Entrant {
         match self {
             Self::Agent(agent) => agent.name().to_owned(),
             Self::Mslst(config) => format!("MSLST {}", config.threshold),
+            Self::Overlay(config) => format!("MSLST {}, overlay", config.threshold),
             Self::Better => "Better".to_owned(),
         }
     }
@@ -82,7 +86,7 @@ impl Entrant {
     pub(super) fn config(self, corridor_width: f64) -> Option<LearnerConfig> {
         match self {
             Self::Agent(_) => None,
-            Self::Mslst(config) => Some(LearnerConfig::Mslst(config)),
+            Self::Mslst(config) | Self::Overlay(config) => Some(LearnerConfig::Mslst(config)),
             Self::Better => {
                 let robot = with_sensor_noise(&calibrated(), ENCODER_SD);
                 let config = better_config(corridor_width, &robot);
@@ -94,7 +98,7 @@ impl Entrant {
     /// Returns its robot. The better system's robot has sensors with errors.
     pub(super) fn robot(self, venue: &Venue) -> LaserPioneerConfig {
         match self {
-            Self::Agent(_) | Self::Mslst(_) => venue.robot.clone(),
+            Self::Agent(_) | Self::Mslst(_) | Self::Overlay(_) => venue.robot.clone(),
             Self::Better => with_sensor_noise(&venue.robot, ENCODER_SD),
         }
     }
@@ -103,9 +107,10 @@ impl Entrant {
     pub(super) fn ready(self, venue: &Venue, seed: u64) -> Result<Ready, BoxError> {
         Ok(match self {
             Self::Agent(agent) => Ready::Agent(agent),
-            Self::Mslst(config) => Ready::Mslst {
+            Self::Mslst(config) | Self::Overlay(config) => Ready::Mslst {
                 learned: Box::new(learn(&venue.course, &venue.robot, &config, seed)?),
                 config,
+                overlays: matches!(self, Self::Overlay(_)),
             },
             Self::Better => {
                 let learned = learn_better(&venue.course, &self.robot(venue), 1, seed)?;
@@ -120,9 +125,17 @@ impl Ready {
     pub(super) fn mind(&self, venue: &Venue) -> Result<Mind, EpisodeError> {
         Ok(match self {
             Self::Agent(agent) => venue.mind(*agent)?,
-            Self::Mslst { learned, config } => {
+            Self::Mslst {
+                learned,
+                config,
+                overlays,
+            } => {
                 let map = Arc::new(learned.map.clone());
-                Mind::Brain(Box::new(Navigator::new(map, config)))
+                let navigator = Navigator::new(map, config);
+                Mind::Brain(Box::new(match overlays {
+                    true => navigator.overlaying(),
+                    false => navigator,
+                }))
             }
             Self::Better(learned) => {
                 Mind::Rolling(Box::new(BetterNavigator::new(Arc::clone(&learned.map))))

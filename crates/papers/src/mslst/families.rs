@@ -56,6 +56,8 @@ pub(super) struct Family {
 enum Kind {
     /// The first kept drawings of the sequence of Large mazes.
     Drawings,
+    /// The same drawings, for MSLST with and without a second graph.
+    Overlay,
     /// Perfect and braided mazes in turn.
     Random,
 }
@@ -96,6 +98,15 @@ impl Family {
         )
     }
 
+    /// Returns the kept drawings of Large with the paper's two ways to localize. Each has at least
+    /// 20 starts, of `runs` starts in all.
+    pub(super) fn overlay(runs: u32, limit: Option<u32>) -> Self {
+        let rows = [20.0, 50.0].map(MslstConfig::large);
+        let both = rows.map(|config| [Entrant::Mslst(config), Entrant::Overlay(config)]);
+        let most = LARGE_DRAWINGS.len() as u32;
+        Self::new(Kind::Overlay, runs, (most, 20), limit, both.concat())
+    }
+
     /// Returns perfect and braided mazes, new ones for every master seed. Each has at least five
     /// starts.
     pub(super) fn random(runs: u32, limit: Option<u32>) -> Self {
@@ -131,6 +142,7 @@ impl Family {
     pub(super) const fn name(&self) -> &'static str {
         match self.kind {
             Kind::Drawings => "drawings",
+            Kind::Overlay => "overlay",
             Kind::Random => "random mazes",
         }
     }
@@ -151,10 +163,13 @@ impl Family {
     pub(super) fn table(&self) -> Table {
         let title = match self.kind {
             Kind::Drawings => "The Large maze as others might have drawn it",
+            Kind::Overlay => {
+                "A second graph in place of the last experiences, in drawings of Large"
+            }
             Kind::Random => "Random mazes of 10 to 20 cells a side",
         };
         let kind = match self.kind {
-            Kind::Drawings => "the drawings are the first that the rule keeps",
+            Kind::Drawings | Kind::Overlay => "the drawings are the first that the rule keeps",
             Kind::Random => {
                 "every other maze is perfect, the others have half of their dead ends opened"
             }
@@ -162,16 +177,18 @@ impl Family {
         let competitors = self.entrants.iter().filter(|entrant| entrant.competes());
         let success = spread("success", FamilyRun::success_percent, "_percent");
         let steps = spread("steps", FamilyRun::steps, "");
+        let oracles = self.entrants.iter().filter_map(|entrant| match entrant {
+            Entrant::Agent(Agent::Oracle) => Some(over("steps_over_oracle", Agent::Oracle)),
+            Entrant::Agent(agent @ Agent::UnlocalizedOracle) => {
+                Some(over("steps_over_unlocalized_oracle", *agent))
+            }
+            _ => None,
+        });
         let table = Table::of::<FamilyRun>(self.name(), title)
             .metric(Metric::mean(FamilyRun::success_percent).decimals(1))
-            .metrics([FamilyRun::steps, FamilyRun::steps_arrived])
-            .metric(over("steps_over_oracle", Agent::Oracle))
-            .metric(over(
-                "steps_over_unlocalized_oracle",
-                Agent::UnlocalizedOracle,
-            ));
-        success
-            .into_iter()
+            .metrics([FamilyRun::steps, FamilyRun::steps_arrived]);
+        oracles
+            .chain(success)
             .chain(steps)
             .fold(table, Table::metric)
             .rows(self.entrants.iter().map(|entrant| Row::new(entrant.row()).runs(self.mazes)))
@@ -230,7 +247,9 @@ impl Family {
     /// Returns the world of a run.
     fn venue(&self, job: &Job<'_>) -> Result<Venue, BoxError> {
         let venue = match self.kind {
-            Kind::Drawings => Drawing::Large.venue(LARGE_DRAWINGS[job.run as usize])?,
+            Kind::Drawings | Kind::Overlay => {
+                Drawing::Large.venue(LARGE_DRAWINGS[job.run as usize])?
+            }
             Kind::Random => random(job)?,
         };
         Ok(venue.limited(self.limit))

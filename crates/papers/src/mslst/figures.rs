@@ -10,7 +10,7 @@ use crate::venue::MazeRun;
 use tolman_arena::drawing::mslst::{SHOWN_ACTIONS, graph_over_maze};
 use tolman_arena::drawing::plan_of_course;
 use tolman_draw::{Axis, Chart, Drawing, Figure, Line, LinePoint, Series, Tiles};
-use tolman_experiment::{BoxError, Run};
+use tolman_experiment::{BoxError, Easel, Run};
 use tolman_stats::wilson_interval;
 use tolman_systems::mslst::Learned;
 
@@ -20,30 +20,35 @@ const SHOWN: usize = 25;
 /// Width of a plan, user units.
 pub(super) const WIDTH: f64 = 420.0;
 
-pub(super) fn of(experiment: &Mslst, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+pub(super) fn of(
+    experiment: &Mslst,
+    runs: &[Run],
+    easel: &Easel<'_>,
+) -> Result<Vec<Figure>, BoxError> {
     let mut figures = Vec::new();
     for (number, contest) in (1_u32..).zip(&experiment.contests) {
-        let mut place = 0;
-        for competitor in &contest.competitors {
-            let Some(learned) = competitor.first_map(&contest.venue)? else {
-                continue;
-            };
-            place += 1;
+        let table = &contest.venue.table;
+        for (place, competitor) in (1..).zip(contest.faithful()) {
             let at = format!("{number}-{place}");
-            let of_row = |run: &&Run| run.is_of(&contest.venue.table, &competitor.row);
+            let of_row = |run: &&Run| run.is_of(table, &competitor.row);
             let shown: Vec<&Run> = runs.iter().filter(of_row).take(SHOWN).collect();
             let here = format!("{} in {}", competitor.row, contest.venue.course.name);
-            let own = [
-                states(learned, &at, &here),
-                graph(contest, learned, &at, &here),
-                ways(contest, &shown, &at, &here)?,
-            ];
-            figures.extend(own.map(|figure| figure.table(&contest.venue.table)));
+            figures.extend(easel.draw(&format!("map {at}"), table, || {
+                let learned = competitor.first_map(&contest.venue)?;
+                let learned = learned.ok_or("no map was learned")?;
+                Ok([
+                    states(learned, &at, &here),
+                    graph(contest, learned, &at, &here),
+                ])
+            })?);
+            figures.extend(easel.draw(&format!("ways {at}"), table, || {
+                Ok([ways(contest, &shown, &at, &here)?])
+            })?);
         }
         figures.extend(between_maps(contest, runs, number)?);
     }
     if let Some(hardest) = &experiment.hardest {
-        figures.extend(hardest.figures(runs)?);
+        figures.extend(hardest.figures(runs, easel)?);
     }
     Ok(figures)
 }

@@ -18,7 +18,7 @@ use tolman_arena::family::FamilySize;
 use tolman_arena::mslst::learn_better;
 use tolman_arena::pioneer;
 use tolman_draw::{Figure, Series};
-use tolman_experiment::{BoxError, Fields, Job, Record, Row, Run, Table};
+use tolman_experiment::{BoxError, Easel, Fields, Job, Record, Row, Run, Table};
 
 /// Name of the table.
 pub(super) const HARDEST: &str = "hardest";
@@ -120,7 +120,7 @@ impl Hardest {
     }
 
     /// Returns the ways by the first map of each world that was played.
-    pub(super) fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+    pub(super) fn figures(&self, runs: &[Run], easel: &Easel<'_>) -> Result<Vec<Figure>, BoxError> {
         let first = |world: &&Venue| {
             let mut own = runs
                 .iter()
@@ -131,7 +131,10 @@ impl Hardest {
             .worlds
             .iter()
             .filter_map(|world| Some((world, first(&world)?)));
-        played.map(|(world, run)| self.ways(world, run)).collect()
+        let drawn = played.map(|(world, run)| {
+            easel.draw(&world.course.name, HARDEST, || Ok([self.ways(world, run)?]))
+        });
+        Ok(drawn.collect::<Result<Vec<_>, _>>()?.concat())
     }
 
     fn ways(&self, venue: &Venue, run: &Run) -> Result<Figure, BoxError> {

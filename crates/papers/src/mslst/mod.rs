@@ -21,8 +21,8 @@ mod states;
 use crate::venue::{self, Venue};
 use tolman_draw::Figure;
 use tolman_experiment::{
-    Beside, BoxError, Entry, Experiment, Fields, Headline, Job, Options, P_TABLE, Procedure, Run,
-    Table,
+    Beside, BoxError, Easel, Entry, Experiment, Fields, Headline, Job, Options, P_TABLE, Procedure,
+    Run, Table,
 };
 use tolman_replay::Replay;
 
@@ -125,7 +125,11 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
         hardest: None,
     };
     if papers {
-        mslst.families = vec![Family::drawings(runs, limit), Family::random(runs, limit)];
+        mslst.families = vec![
+            Family::drawings(runs, limit),
+            Family::overlay(runs, limit),
+            Family::random(runs, limit),
+        ];
         let hardest = mslst.hardest.insert(Hardest::new(runs, limit)?);
         tables.insert(0, states::table());
         tables.extend(mslst.families.iter().map(Family::table));
@@ -191,8 +195,8 @@ impl Procedure for Mslst {
         self.contest(job.table)?.map_of(job)
     }
 
-    fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
-        figures::of(self, runs)
+    fn figures(&self, runs: &[Run], easel: &Easel<'_>) -> Result<Vec<Figure>, BoxError> {
+        figures::of(self, runs, easel)
     }
 
     fn replay(&self, job: &Job<'_>) -> Result<Option<Replay>, BoxError> {

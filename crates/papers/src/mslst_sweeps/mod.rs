@@ -16,8 +16,8 @@ use tolman_arena::episode::{self, EpisodeError};
 use tolman_arena::mslst::learn;
 use tolman_draw::Figure;
 use tolman_experiment::{
-    BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Record, Row, Run, Table, record,
-    run_seed,
+    BoxError, Easel, Entry, Experiment, Fields, Job, Options, Procedure, Record, Row, Run, Table,
+    record, run_seed,
 };
 use tolman_systems::mslst::Navigator;
 
@@ -124,7 +124,7 @@ impl Procedure for Sweeps {
         Ok(run.fields()?)
     }
 
-    fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+    fn figures(&self, runs: &[Run], _easel: &Easel<'_>) -> Result<Vec<Figure>, BoxError> {
         Ok(figures::of(&self.sweeps, runs))
     }
 }

@@ -13,7 +13,7 @@ use crate::plan::{model_scan, network_graph};
 use tolman_draw::{
     Axis, Chart, Drawing, Figure, GraphNode, Line, LinePoint, NodeMark, Points, Series, Tiles,
 };
-use tolman_experiment::{BoxError, Record, Run};
+use tolman_experiment::{BoxError, Easel, Record, Run};
 use tolman_stats::{ConfidenceInterval, quantile};
 
 /// Maximum number of data points in a picture.
@@ -22,7 +22,7 @@ const SHOWN: usize = 700;
 /// Colour of data: the last one, which no cluster has.
 const DOTS: u32 = Series::COLOURS - 1;
 
-pub(super) fn of(mazes: &Mazes, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
+pub(super) fn of(mazes: &Mazes, runs: &[Run], easel: &Easel<'_>) -> Result<Vec<Figure>, BoxError> {
     let first = |table: &str, row: &str| {
         let mut runs = runs.iter();
         runs.find(|run| run.is_of(table, row) && run.run == 0)
@@ -30,7 +30,8 @@ pub(super) fn of(mazes: &Mazes, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     let mut figures = Vec::new();
     for (name, row) in [("states-j", "J 100"), ("states-large", "Large 20")] {
         if let Some(run) = first(states::NAME, row) {
-            figures.push(model_scans(mazes, run, name)?);
+            figures
+                .extend(easel.draw(name, states::NAME, || Ok([model_scans(mazes, run, name)?]))?);
         }
     }
     for (name, table) in [
@@ -39,32 +40,36 @@ pub(super) fn of(mazes: &Mazes, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
     ] {
         for (suffix, row) in [("literal", five::LITERAL), ("chosen", five::CHOSEN)] {
             if let Some(run) = first(table, row) {
-                figures.push(layers(run, &format!("{name}-{suffix}"))?);
+                let name = format!("{name}-{suffix}");
+                figures.extend(easel.draw(&name, table, || Ok([layers(run, &name)?]))?);
             }
         }
     }
-    let mut networks = Tiles::new(2);
-    for row in ROWS {
-        if let Some(run) = first(shapes::NAME, row) {
-            let learned = shapes::learn(&run.job())?;
-            let network = learned.quantizer.network();
-            let caption = format!("{row}: {} units", network.len());
-            networks.tile(caption, over_data(&learned.data, network));
-        }
-    }
-    figures.push(
-        Figure::new(
-            "rings-and-squares",
-            "Four networks of the same points",
-            networks.drawing(
-                "Networks of GNG, GNG-U, equilibrium GNG and SOINN over two rings and two squares.",
-            ),
-        )
-        .caption("Run 0. Each cluster has a colour of its own until colours begin again; dots: some of the points.")
-        .table(shapes::NAME),
-    );
+    figures.extend(easel.draw("networks", shapes::NAME, || {
+        let firsts = ROWS.into_iter();
+        networks(firsts.filter_map(|row| Some((row, first(shapes::NAME, row)?))))
+    })?);
     figures.push(errors(runs)?);
     Ok(figures)
+}
+
+/// Returns the networks of runs, each with the name of its row.
+fn networks<'a>(
+    runs: impl Iterator<Item = (&'static str, &'a Run)>,
+) -> Result<[Figure; 1], BoxError> {
+    let mut networks = Tiles::new(2);
+    for (row, run) in runs {
+        let learned = shapes::learn(&run.job())?;
+        let network = learned.quantizer.network();
+        let caption = format!("{row}: {} units", network.len());
+        networks.tile(caption, over_data(&learned.data, network));
+    }
+    let drawing = networks.drawing(
+        "Networks of GNG, GNG-U, equilibrium GNG and SOINN over two rings and two squares.",
+    );
+    Ok([Figure::new("rings-and-squares", "Four networks of the same points", drawing)
+        .caption("Run 0. Each cluster has a colour of its own until colours begin again; dots: some of the points.")
+        .table(shapes::NAME)])
 }
 
 /// Returns every state of a run as a scan, with north up.

@@ -19,7 +19,7 @@ use tolman_sim::robots::LaserPioneerConfig;
 use crate::data;
 use tolman_arena::pioneer;
 use tolman_draw::Figure;
-use tolman_experiment::{BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run};
+use tolman_experiment::{BoxError, Easel, Entry, Experiment, Fields, Job, Options, Procedure, Run};
 
 use sonar::Log;
 use states::Mazes;
@@ -119,7 +119,7 @@ impl Procedure for Quantizers {
         }
     }
 
-    fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
-        figures::of(&self.mazes, runs)
+    fn figures(&self, runs: &[Run], easel: &Easel<'_>) -> Result<Vec<Figure>, BoxError> {
+        figures::of(&self.mazes, runs, easel)
     }
 }

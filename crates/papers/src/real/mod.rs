@@ -21,7 +21,7 @@ mod wean;
 
 use serde::Serialize;
 use tolman_draw::Figure;
-use tolman_experiment::{BoxError, Entry, Experiment, Fields, Job, Options, Procedure, Run};
+use tolman_experiment::{BoxError, Easel, Entry, Experiment, Fields, Job, Options, Procedure, Run};
 use tolman_maps::audit::AuditConfig;
 use tolman_maps::scan_matching::ScanMatchingConfig;
 use tolman_systems::places::PlacesConfig;
@@ -127,7 +127,7 @@ impl Procedure for Real {
         Some(job.table.to_owned())
     }
 
-    fn figures(&self, runs: &[Run]) -> Result<Vec<Figure>, BoxError> {
-        figures::of(self, runs)
+    fn figures(&self, runs: &[Run], easel: &Easel<'_>) -> Result<Vec<Figure>, BoxError> {
+        easel.draw("small log", small::NAME, || figures::of(self, runs))
     }
 }

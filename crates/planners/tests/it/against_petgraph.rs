@@ -4,7 +4,7 @@ use petgraph::algo::dijkstra;
 use petgraph::graph::{DiGraph, NodeIndex};
 use proptest::prelude::*;
 use tolman_planners::{
-    Arcs, Graph, a_star, best_first, costs_from, path_between, path_to, steps_from,
+    Arcs, Graph, a_star, best_first, costs_from, depth_first, path_between, path_to, steps_from,
 };
 
 const NODES: u32 = 24;
@@ -71,6 +71,21 @@ proptest! {
                 cost += least.unwrap();
             }
             prop_assert_eq!(cost, found.cost);
+        }
+    }
+
+    #[test]
+    fn a_depth_first_search_finds_some_way_where_there_is_one(list in arcs(), source in 0..NODES, goal in 0..NODES) {
+        let graph = Arcs::new(NODES as usize, &list);
+        let least = costs_from(&graph, [source])[goal as usize];
+        let found = depth_first(&graph, source, |node| node == goal);
+        prop_assert_eq!(found.is_some(), least.is_some());
+        if let Some(found) = found {
+            prop_assert_eq!((found.path[0], found.path[found.path.len() - 1]), (source, goal));
+            prop_assert!(found.cost >= least.unwrap() && found.expanded <= NODES);
+            for pair in found.path.windows(2) {
+                prop_assert!(list.iter().any(|(tail, head, _)| [*tail, *head] == pair));
+            }
         }
     }
 

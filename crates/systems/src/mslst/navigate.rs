@@ -2,7 +2,7 @@ use alloc::sync::Arc;
 use core::convert::Infallible;
 
 use rand::Rng;
-use tolman_maps::mslst_graph::{Localization, Memory, localize};
+use tolman_maps::mslst_graph::{GraphMapper, Localization, Memory, NodeZone, localize, overlay};
 use tolman_maze::Direction;
 use tolman_planners::compressed;
 use tolman_robot::{Goal, Guess, Landmark, MapView, Mapper, Position, Standing, Task};
@@ -25,6 +25,9 @@ pub struct Navigator {
     map: Arc<MslstMap>,
     config: MslstConfig,
     memory: Memory,
+    matches: Matches,
+    /// Graph of what was walked since it was put down, if it matches that.
+    walked: Option<GraphMapper>,
     /// State of the last perception that had one.
     state: Option<u32>,
     /// Actions that failed since the robot last moved.
@@ -34,6 +37,16 @@ pub struct Navigator {
     /// Number of random actions still to come after the robot believed that it had arrived.
     doubts_left: u32,
     situation: NavigationState,
+}
+
+/// What a navigator matches with its graph.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Matches {
+    /// The last experiences, as the paper does.
+    #[default]
+    Window,
+    /// A second graph, built while it navigates: the paper's next step.
+    SecondGraph,
 }
 
 /// State of a navigator.
@@ -62,12 +75,22 @@ impl Navigator {
             map,
             config: *config,
             memory: Memory::new(config.memory as usize),
+            matches: Matches::default(),
+            walked: None,
             state: None,
             failed: Vec::new(),
             wander: AvoidBrain::default(),
             doubts_left: 0,
             situation: NavigationState::Lost,
         }
+    }
+
+    /// Returns the navigator with another localization: it builds a second graph while it navigates
+    /// and [overlays](overlay) it on its map, where the paper compares its last experiences.
+    #[must_use]
+    pub const fn overlaying(mut self) -> Self {
+        self.matches = Matches::SecondGraph;
+        self
     }
 
     /// Returns the map by which it navigates.
@@ -84,10 +107,13 @@ impl Navigator {
 
     /// Forgets everything but the map: the robot has been put down, and senses `seen`.
     pub(super) fn begin(&mut self, seen: &TimeStep) {
+        let matches = self.matches;
         *self = Self::new(Arc::clone(&self.map), &self.config);
+        self.matches = matches;
         self.state = self.sense(seen);
         if let Some(state) = self.state {
             self.memory.start(state);
+            self.walked = self.first_walked(state);
         }
         self.situation = self.consult();
     }
@@ -101,6 +127,25 @@ impl Navigator {
         self.state = self.sense(seen).or(self.state);
         if let Some(state) = self.state {
             self.memory.moved(action, state);
+            match &mut self.walked {
+                Some(walked) => {
+                    walked.succeeded(action, state, NodeZone::Elsewhere);
+                }
+                None => self.walked = self.first_walked(state),
+            }
+        }
+    }
+
+    /// Returns a second graph that begins in a state; `None` if it builds none.
+    fn first_walked(&self, state: u32) -> Option<GraphMapper> {
+        let builds = self.matches == Matches::SecondGraph;
+        builds.then(|| GraphMapper::new(state, NodeZone::Elsewhere))
+    }
+
+    fn localize(&self) -> Localization {
+        match &self.walked {
+            Some(walked) => overlay(&self.map.graph, walked),
+            None => localize(&self.map.graph, &self.memory),
         }
     }
 
@@ -115,7 +160,7 @@ impl Navigator {
             self.doubts_left -= 1;
             return NavigationState::Doubtful;
         }
-        let belief = localize(&self.map.graph, &self.memory);
+        let belief = self.localize();
         let Some(node) = belief.node else {
             return NavigationState::Lost;
         };
@@ -148,7 +193,7 @@ impl Navigator {
             candidates,
             matched,
             ..
-        } = localize(&self.map.graph, &self.memory);
+        } = self.localize();
         match candidates.len() {
             1 => Standing::Done,
             count if count > 1 && matched >= self.config.memory as usize => Standing::gave_up(
@@ -171,7 +216,12 @@ impl Mapper for Navigator {
                 self.begin(seen);
                 return Ok(());
             }
-            Doing::Ended(action, outcome) if !outcome.moved() => self.failed.push(action),
+            Doing::Ended(action, outcome) if !outcome.moved() => {
+                self.failed.push(action);
+                if let Some(walked) = &mut self.walked {
+                    walked.failed(action);
+                }
+            }
             Doing::Ended(action, _) => self.remember(action, seen),
         }
         self.situation = self.consult();
