@@ -96,18 +96,19 @@ pub struct HalfKnown {
     pub known: Vec<RunLeg>,
     /// Duration of the best run if all unknown walls were open, ms; `None` if no way is left.
     pub possible_ms: Option<u32>,
-    /// Decision of a mouse that stands at the start.
+    /// Decision of a mouse, where it is.
     pub next: Decision,
 }
 
-/// Returns the best run through what is known of a maze, and where a mouse at its start would look
-/// next.
+/// Returns the best run from the start through what is known of a maze, and where a mouse that is
+/// at `at`, looking to `facing`, would look next.
 ///
 /// # Errors
 /// If the maze is larger than 32 × 32 or the mouse's parameters are invalid.
 pub fn half_known(
     walls: &impl Walls,
     (start, heading): (Cell, Direction),
+    (at, facing): (Cell, Direction),
     goals: &[Cell],
     config: &SpeedRunConfig,
 ) -> Result<HalfKnown, ExploreError> {
@@ -128,7 +129,7 @@ pub fn half_known(
     });
     let known = legs.collect();
     let mut explorer = SpeedRunExplorer::<32>::new(&times, start, heading, goals);
-    let next = explorer.decide(walls, start, heading)?;
+    let next = explorer.decide(walls, at, facing)?;
     Ok(HalfKnown {
         known,
         possible_ms,

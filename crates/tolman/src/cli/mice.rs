@@ -52,8 +52,8 @@ pub(super) trait MouseResult: Send {
     /// Returns the outcome in words.
     fn outcome(&self) -> String;
 
-    /// Returns the figures of a line of `--json`, which names the maze besides.
-    fn json(&self) -> Result<Value, Error>;
+    /// Returns the figures of each line of `--json`, which names the maze besides.
+    fn json(&self) -> Result<Vec<Value>, Error>;
 
     /// Returns whether the mouse solved its maze.
     fn has_solved(&self) -> bool;
@@ -112,9 +112,10 @@ pub(super) fn tell(
         way.show(looks, &outcome)?;
     }
     if looks.json {
-        let mut line = tried.json()?;
-        line["maze"] = json!(name);
-        writeln!(out, "{line}")?;
+        for mut line in tried.json()? {
+            line["maze"] = json!(name);
+            writeln!(out, "{line}")?;
+        }
     } else {
         writeln!(out, "{name}: {outcome}")?;
     }

@@ -238,8 +238,8 @@ impl MouseResult for Hosted {
         )
     }
 
-    fn json(&self) -> Result<Value, Error> {
-        Ok(serde_json::to_value(self)?)
+    fn json(&self) -> Result<Vec<Value>, Error> {
+        Ok(vec![serde_json::to_value(self)?])
     }
 
     fn has_solved(&self) -> bool {

@@ -17,6 +17,7 @@ mod failure;
 mod file;
 mod former;
 mod ground;
+mod half_known;
 mod host;
 mod interrupt;
 mod judge;

@@ -2,6 +2,7 @@
 //! the paper or of mms.
 
 mod drawing;
+mod half_known;
 mod mms;
 mod walls_known;
 mod way;
@@ -18,6 +19,7 @@ use tolman_geom::Pose;
 use tolman_maze::Maze;
 use tolman_systems::micromouse::{Movement, Order, Rotation, Searcher, Until};
 
+use super::half_known::Whereabouts;
 use super::looks::Looks;
 use super::maze::{Collection, Marks};
 use super::mice::{MazePath, MouseResult, ON_GOAL, maze_or, send_all};
@@ -33,6 +35,9 @@ pub(super) use way::{Came, PITCH, Way, WayStep, half_cells};
 The rules are those of \"Plot and Navigate a Virtual Maze\": at most 1000 steps for both runs. A step is a quarter turn or
 none, then up to three cells. The score is a thirtieth of the steps of the first run plus those of the second. The
 floor is the score of a mouse that knows the maze.
+
+In a maze with unknown walls, written as `.`, the mouse does not explore: it tells the best known run, the best possible
+one, and what it does next, at the start or --at.
 
 With --mms the rules are those of the simulator mms, which hosts the mouse. They exchange lines on stdin and stdout,
 and the mouse logs to stderr.
@@ -54,6 +59,8 @@ pub(super) struct Arguments {
     maze: MazePath,
     #[command(flatten)]
     marks: Marks,
+    #[command(flatten)]
+    whereabouts: Whereabouts,
     /// Speak the protocol of the simulator mms on stdin and stdout
     #[arg(long, conflicts_with_all = ["search", "seed", "worst", "jobs", "json", "live", "svg", "trace", "replay"])]
     mms: bool,
@@ -112,8 +119,16 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     };
     let search = arguments.search()?;
     let looks = &arguments.looks;
+    let mut collection = Collection::read(path, Some(&arguments.marks), looks)?;
+    arguments.whereabouts.check(&collection)?;
+    let are_all = collection.tell_half_known(|path, file| {
+        half_known::tell(path, (file, &arguments.whereabouts), looks, out)
+    })?;
+    if are_all {
+        return collection.unsound.complain(collection.half_known.len());
+    }
     send_all(
-        &mut Collection::read(path, Some(&arguments.marks), looks)?.known(),
+        &mut collection,
         arguments.jobs,
         looks,
         out,
@@ -182,12 +197,12 @@ impl Tried<'_> {
 }
 
 impl MouseResult for Tried<'_> {
-    fn json(&self) -> Result<Value, Error> {
+    fn json(&self) -> Result<Vec<Value>, Error> {
         let mut line = serde_json::to_value(self.judgement)?;
         line["search"] = json!(self.search.name());
         line["above_floor"] = json!(self.judgement.above_floor());
         line["gave_up"] = json!(self.why());
-        Ok(line)
+        Ok(vec![line])
     }
 
     fn has_solved(&self) -> bool {
@@ -263,6 +278,7 @@ fn in_words(order: Order) -> String {
         Rotation::Reset(_) => return "back to the start, for the second run".to_owned(),
     };
     match order.movement {
+        Movement::Cells(0) => turn.to_owned(),
         Movement::Cells(1) => format!("{turn}, 1 cell"),
         Movement::Cells(cells) => format!("{turn}, {cells} cells"),
         Movement::Reset(_) => turn.to_owned(),

@@ -19,6 +19,7 @@ use tolman_maze::Maze;
 use tolman_planners::speed_run::SpeedRunConfig;
 use tolman_systems::micromouse::competition::{ExploreError, SpeedRunExploration};
 
+use super::half_known::Whereabouts;
 use super::looks::Looks;
 use super::maze::{Collection, Marks};
 use super::mice::{MazePath, maze_or, send_all};
@@ -66,6 +67,8 @@ pub(super) struct Arguments {
     mouse: Vec<PathBuf>,
     #[command(flatten)]
     marks: Marks,
+    #[command(flatten)]
+    whereabouts: Whereabouts,
     /// Time and check this way instead of exploring: F, L, R and B for each cell, or a letter for
     /// each move
     #[arg(long, value_name = "LETTERS", conflicts_with_all = ["live", "svg", "trace", "replay"])]
@@ -108,6 +111,9 @@ const KINDS: [(&str, &str, Kind); 3] = [
     ),
 ];
 
+/// The explorations of a maze by all mice: one or more.
+struct Heat(Vec<Raced>);
+
 /// The mouse's exploration of a maze.
 struct Raced {
     /// File of the mouse, if several race.
@@ -143,12 +149,21 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
         for ((file, maze), params) in pairs(&collection.mazes, &mice) {
             route::tell(file, maze, &params.config_for(maze), &route, told, out)?;
         }
-        return collection.known().unsound.complain(1);
+        if let Some((file, _)) = collection.half_known.first() {
+            let name = maze::name(file);
+            return Err(anyhow!("{name} has unknown walls: leave --route out")).or_bad_input();
+        }
+        return collection.unsound.complain(collection.mazes.len());
     }
-    for ((file, half), params) in pairs(&collection.half_known, &mice) {
-        half_known::tell(file, half, &params.config_for(&half.maze), told, out)?;
-    }
-    if collection.mazes.is_empty() && !collection.half_known.is_empty() {
+    let whereabouts = &arguments.whereabouts;
+    whereabouts.check(&collection)?;
+    let are_all = collection.tell_half_known(|path, file| {
+        mice.iter().try_for_each(|params| {
+            let config = params.config_for(&file.maze);
+            half_known::tell(path, (file, whereabouts), &config, told, out)
+        })
+    })?;
+    if are_all {
         return collection.unsound.complain(collection.half_known.len());
     }
     if mice.len() > 1 {
@@ -163,26 +178,29 @@ pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
         .or_bad_input();
     }
     let speeds = Mutex::new(Vec::new());
-    for (number, params) in mice.iter().enumerate() {
-        let driver = arguments.mouse.get(number).filter(|_| mice.len() > 1);
-        let driver = driver.map(|file| file.display().to_string());
-        send_all(
-            &mut collection,
-            arguments.jobs,
-            looks,
-            out,
-            |file, maze| {
-                let sent = send(file, maze, params, (driver.clone(), arguments.moves), looks)?;
-                if let (Some(_), Some(explored)) = (&arguments.speeds, &sent.0.explored) {
-                    let line = speeds::over_time(&explored.run, &sent.0.config);
+    send_all(
+        &mut collection,
+        arguments.jobs,
+        looks,
+        out,
+        |file, maze| {
+            let (mut heat, mut way) = (Vec::new(), None);
+            for (number, params) in mice.iter().enumerate() {
+                let driver = arguments.mouse.get(number).filter(|_| mice.len() > 1);
+                let driver = driver.map(|file| file.display().to_string());
+                let (raced, shown) = send(file, maze, params, (driver, arguments.moves), looks)?;
+                if let (Some(_), Some(explored)) = (&arguments.speeds, &raced.explored) {
+                    let line = speeds::over_time(&explored.run, &raced.config);
                     let mut all = speeds.lock().unwrap_or_else(PoisonError::into_inner);
-                    all.push((driver.clone().unwrap_or_default(), line));
+                    all.push((raced.driver.clone().unwrap_or_default(), line));
                 }
-                Ok(sent)
-            },
-            |_, _| Ok(()),
-        )?;
-    }
+                heat.push(raced);
+                way = shown;
+            }
+            Ok((Heat(heat), way))
+        },
+        |_, _| Ok(()),
+    )?;
     match &arguments.speeds {
         Some(path) => {
             let speeds = speeds.into_inner().unwrap_or_else(PoisonError::into_inner);

@@ -181,9 +181,18 @@ fn a_first_mouse_turns_within_cells() {
         "--moves",
         "names",
     ]);
-    assert!(told.contains("curves.toml: run of"), "{told}");
+    let table: Vec<&str> = told.lines().collect();
+    assert_eq!(table.len(), 4, "{told}");
     assert!(
-        told.contains("SS90SR, SS90SL") && told.contains("IP90R, IP90L"),
+        table[1].starts_with("  mouse        run, s  cells"),
+        "{told}"
+    );
+    assert!(
+        table[2].starts_with("  curves.toml") && table[2].contains("SS90SR, SS90SL"),
+        "{told}"
+    );
+    assert!(
+        table[3].starts_with("  place.toml ") && table[3].contains("IP90R, IP90L"),
         "{told}"
     );
     let none = beginner.replace("fs90 = 406", "");
@@ -230,7 +239,18 @@ fn a_half_known_maze_is_planned_in() {
         told.contains("1 unknown wall: no run is known; the best possible"),
         "{told}"
     );
-    tolman_in(&folder, &["mouse", "half.txt"]).refused(2, &["unknown walls", "tolman race"]);
+    let told = tolman_in(&folder, &["mouse", "half.txt"]).done();
+    assert!(
+        told.contains("the best possible takes 6 steps; next, turn right from (0, 0)"),
+        "{told}"
+    );
+    let at = ["race", "half.txt", "--at", "0,1,south"];
+    let told = tolman_in(&folder, &at).done();
+    assert!(told.contains("from (0, 1)"), "{told}");
+    tolman_in(&folder, &["mouse", "half.txt", "--at", "9,9"])
+        .refused(2, &["--at (9, 9)", "half.txt"]);
+    tolman_in(&folder, &["mouse", "a.maze", "--at", "0,0"])
+        .refused(2, &["unknown walls", "--start"]);
 }
 
 #[test]

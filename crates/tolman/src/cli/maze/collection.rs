@@ -81,10 +81,24 @@ impl Collection {
         for (file, _) in self.half_known.drain(..) {
             let name = input::name(&file);
             self.unsound.push(Failure::BadInput(anyhow!(
-                "{name} has unknown walls: give it to `tolman race`, which tells what is known"
+                "{name} has unknown walls: give it to `tolman race` or `tolman mouse`, which tell what is known"
             )));
         }
         self
+    }
+
+    /// Calls `tell` with each maze that has unknown walls, and returns whether there are no others.
+    ///
+    /// # Errors
+    /// The first failure of `tell`.
+    pub(in crate::cli) fn tell_half_known(
+        &self,
+        mut tell: impl FnMut(&Path, &MazeFile) -> Result,
+    ) -> Result<bool> {
+        for (path, file) in &self.half_known {
+            tell(path, file)?;
+        }
+        Ok(self.mazes.is_empty() && !self.half_known.is_empty())
     }
 }
 

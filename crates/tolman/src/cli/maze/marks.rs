@@ -10,7 +10,7 @@ use super::{OrBadInput, Result};
 pub(in crate::cli) struct Marks {
     /// Start of the mouse, instead of that of the maze: column and row from the south-west, and the
     /// side that it looks to if not north, as in 0,0,east
-    #[arg(long, value_name = "X,Y[,SIDE]", value_parser = start)]
+    #[arg(long, value_name = "X,Y[,SIDE]", value_parser = place)]
     start: Option<(Cell, Direction)>,
     /// Goal cell, instead of those of the maze; may be given several times
     #[arg(long, value_name = "X,Y", value_parser = cell)]
@@ -62,7 +62,8 @@ fn cell(text: &str) -> Result<Cell, String> {
         })
 }
 
-fn start(text: &str) -> Result<(Cell, Direction), String> {
+/// Reads a cell, and the side that a mouse looks to there.
+pub(in crate::cli) fn place(text: &str) -> Result<(Cell, Direction), String> {
     let side = |word: &str| {
         let mut sides = Direction::ALL.into_iter();
         sides.find(|side| side.to_string() == word)

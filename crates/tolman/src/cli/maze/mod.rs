@@ -20,7 +20,7 @@ use clap::Subcommand;
 use super::{App, Failure, OrBadInput, Result, file};
 pub(super) use collection::{Collection, each};
 pub(super) use input::{is_stdin, name, read, source, text, world_name};
-pub(super) use marks::Marks;
+pub(super) use marks::{Marks, place};
 
 /// Shows, checks, compares, converts and generates mazes
 #[derive(Subcommand)]

@@ -44,7 +44,13 @@ pub(super) fn tell(
     let driven = mine.driven_ms(maze, config, maze.goals());
     let moves_ms = driven.with_context(|| format!("{name}: the route cannot be driven"));
     let moves_ms = moves_ms.map_err(Failure::Failed)?;
-    let best = competition::half_known(maze, (start, heading), maze.goals(), config);
+    let best = competition::half_known(
+        maze,
+        (start, heading),
+        (start, heading),
+        maze.goals(),
+        config,
+    );
     let best = best.with_context(|| name.clone()).or_bad_input()?;
     let whole = |ms: u32| config.start_ms() + ms + config.stop_ms();
     let (route_ms, best_ms) = (whole(moves_ms), best.possible_ms.map_or(0, whole));
@@ -91,7 +97,7 @@ fn along(
             "the route ends in {at}, which is not a goal"
         )));
     }
-    let plan = competition::half_known(&lane, (start, first), &[at], config);
+    let plan = competition::half_known(&lane, (start, first), (start, first), &[at], config);
     let run = plan.or_bad_input()?.known;
     match run.is_empty() && !sides.is_empty() {
         true => Err(Failure::Failed(anyhow!(

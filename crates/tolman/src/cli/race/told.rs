@@ -8,30 +8,104 @@ use tolman_maze::{Cell, Direction, Maze};
 use tolman_planners::speed_run::{RunMove, RunState, Side};
 use tolman_systems::micromouse::competition::{RunLeg, SpeedRunExploration};
 
-use super::Raced;
 use super::shown::side_towards;
 use super::written::Writing;
+use super::{Heat, Raced};
 use crate::cli::mice::{MouseResult, ON_GOAL};
 
-impl MouseResult for Raced {
+impl MouseResult for Heat {
     fn has_solved(&self) -> bool {
+        self.0.iter().all(Raced::is_proven)
+    }
+
+    fn outcome(&self) -> String {
+        match self.0.as_slice() {
+            [alone] => alone.outcome(),
+            mice => table(mice),
+        }
+    }
+
+    fn json(&self) -> Result<Vec<Value>, Error> {
+        Ok(self.0.iter().map(Raced::json).collect())
+    }
+
+    fn summary(heats: &[(&Path, Self)]) -> String {
+        let mice = heats.first().map_or(0, |(_, heat)| heat.0.len());
+        let of_mouse = |number: usize| heats.iter().filter_map(move |(_, heat)| heat.0.get(number));
+        let lines: Vec<String> = (0..mice)
+            .map(|number| Raced::summary(&of_mouse(number).collect::<Vec<_>>()))
+            .collect();
+        lines.join("\n")
+    }
+}
+
+/// Returns a table with a line for each mouse, the fastest first.
+fn table(mice: &[Raced]) -> String {
+    let head = [
+        "mouse", "run, s", "cells", "search", "proof", "home", "moves",
+    ]
+    .map(str::to_owned);
+    let mut order: Vec<&Raced> = mice.iter().collect();
+    order.sort_by_key(|raced| {
+        let explored = raced.explored.as_ref();
+        explored.map_or(u32::MAX, |explored| raced.run_ms(explored))
+    });
+    let lines = order.into_iter().map(|raced| {
+        let driver = raced.driver.clone().unwrap_or_default();
+        let Some(explored) = &raced.explored else {
+            return [driver, "no way".to_owned()]
+                .into_iter()
+                .chain(vec![String::new(); 5])
+                .collect();
+        };
+        let run = f64::from(raced.run_ms(explored)) / 1000.0;
+        let not = if raced.is_proven() {
+            ""
+        } else {
+            " (not proven)"
+        };
+        let cells = [
+            explored.cells,
+            explored.search_cells,
+            explored.proof_cells,
+            home(explored),
+        ];
+        [driver, format!("{run:.3}{not}")]
+            .into_iter()
+            .chain(cells.map(|cells| cells.to_string()))
+            .chain([raced.writing.of(&explored.run, &raced.config)])
+            .collect()
+    });
+    let lines: Vec<Vec<String>> = [head.to_vec()].into_iter().chain(lines).collect();
+    let width = |column: usize| {
+        let cells = lines.iter().filter_map(|line| line.get(column));
+        cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+    };
+    let widths: Vec<usize> = (0..head.len()).map(width).collect();
+    let line = |line: &Vec<String>| {
+        let cells = line.iter().zip(&widths).enumerate();
+        let cells = cells.map(|(column, (cell, width))| match column {
+            0 => format!("{cell:width$}"),
+            6 => cell.clone(),
+            _ => format!("{cell:>width$}"),
+        });
+        let line = cells.collect::<Vec<_>>().join("  ");
+        format!("\n  {}", line.trim_end())
+    };
+    lines.iter().map(line).collect()
+}
+
+impl Raced {
+    fn is_proven(&self) -> bool {
         let explored = self.explored.as_ref();
         explored.is_some_and(|explored| explored.verdict.is_ok())
     }
 
-    fn outcome(&self) -> String {
-        let of = self
-            .driver
-            .as_ref()
-            .map_or_else(String::new, |driver| format!("{driver}: "));
-        format!("{of}{}", self.alone())
-    }
-
-    fn json(&self) -> Result<Value, Error> {
+    fn json(&self) -> Value {
         let mut line = json!({
             "mouse": self.config,
             "mouse_file": self.driver,
-            "proven": self.has_solved(),
+            "proven": self.is_proven(),
             "search_path": self.search_path,
         });
         if let Some(explored) = &self.explored {
@@ -48,13 +122,14 @@ impl MouseResult for Raced {
             line["run_path"] = json!(Writing::Letters.of(&explored.run, &self.config));
             line["moves"] = explored.run.iter().map(move_json).collect();
         }
-        Ok(line)
+        line
     }
 
-    fn summary(raced: &[(&Path, Self)]) -> String {
+    /// Returns the results of a mouse in several mazes in one line.
+    fn summary(raced: &[&Self]) -> String {
         let explored: Vec<(&Self, &SpeedRunExploration)> = raced
             .iter()
-            .filter_map(|(_, raced)| Some((raced, raced.explored.as_ref()?)))
+            .filter_map(|raced| Some((*raced, raced.explored.as_ref()?)))
             .collect();
         let mean = |value: fn(&Self, &SpeedRunExploration) -> u32| {
             let sum: f64 = explored
@@ -63,9 +138,11 @@ impl MouseResult for Raced {
                 .sum();
             sum / explored.len().max(1) as f64
         };
-        let proven = raced.iter().filter(|(_, raced)| raced.has_solved()).count();
+        let proven = raced.iter().filter(|raced| raced.is_proven()).count();
+        let driver = raced.first().and_then(|raced| raced.driver.as_ref());
         format!(
-            "{} mazes: {proven} proven; mean run {:.3} s, {:.1} cells explored: search {:.1}, proof {:.1}, home {:.1}",
+            "{}{} mazes: {proven} proven; mean run {:.3} s, {:.1} cells explored: search {:.1}, proof {:.1}, home {:.1}",
+            driver.map_or_else(String::new, |driver| format!("{driver}: ")),
             raced.len(),
             mean(Self::run_ms) / 1000.0,
             mean(|_, explored| explored.cells),
@@ -74,11 +151,8 @@ impl MouseResult for Raced {
             mean(|_, explored| home(explored)),
         )
     }
-}
 
-impl Raced {
-    /// Returns the outcome without the mouse's name.
-    fn alone(&self) -> String {
+    fn outcome(&self) -> String {
         let Some(explored) = &self.explored else {
             return "no way that the mouse can drive leads to a goal".to_owned();
         };
