@@ -42,7 +42,7 @@ pub(super) struct Guide {
     /// Places that the rover visited, by their ids at that time; `None` for places of a dropped
     /// map.
     visited: Vec<Option<PlaceId>>,
-    /// Where each landmark was sensed, by the places' ids at that time.
+    /// Where each landmark was sensed, the last spot last, by the places' ids at that time.
     landmarks: BTreeMap<Landmark, Vec<LandmarkSpot>>,
     /// Number of moves so far.
     moves: u32,
@@ -290,10 +290,8 @@ impl Guide {
 
     /// Remembers where `landmark` is, beside where else it was.
     pub(super) fn remember(&mut self, landmark: Landmark, spot: LandmarkSpot) {
-        let known = self.spots_of(landmark).any(|known| known == spot);
-        if !known {
-            self.landmarks.entry(landmark).or_default().push(spot);
-        }
+        self.forget(landmark, spot);
+        self.landmarks.entry(landmark).or_default().push(spot);
     }
 
     /// Lets `rover` go in `direction`, and updates the map. Returns whether it went. If its view
@@ -583,12 +581,12 @@ impl Guide {
         Some(Next::Continue(direction))
     }
 
-    /// Returns a spot where `landmark` was sensed, by the place's present id: a place, if there is
-    /// one.
+    /// Returns the spot where `landmark` was sensed last, by the place's present id: a place, if
+    /// there is one.
     pub(super) fn spot_of(&self, landmark: Landmark) -> Option<LandmarkSpot> {
         let is_place = |spot: &LandmarkSpot| matches!(spot, LandmarkSpot::Place(_));
         let spots = || self.spots_of(landmark);
-        spots().find(is_place).or_else(|| spots().last())
+        spots().filter(is_place).last().or_else(|| spots().last())
     }
 
     /// Returns all spots where `landmark` was sensed, by the places' present ids.

@@ -193,6 +193,14 @@ where
         }
     }
 
+    /// Breaks off at the landmark that is sought.
+    fn break_off(&self) -> Result<(), RoutineError<R::Error>> {
+        match self.sought {
+            Some(_) if self.sought == self.robot.landmark() => Err(RoutineError::Found),
+            _ => Ok(()),
+        }
+    }
+
     /// Drives `distance`, m, along the way, and breaks off at the landmark that is sought.
     fn drive_on(
         &mut self,
@@ -201,10 +209,8 @@ where
         distance: f64,
     ) -> Result<(), RoutineError<R::Error>> {
         self.routine.along += self.drive(heading_of(direction), view, distance)?;
+        self.break_off()?;
         let steps = self.steps;
-        if self.sought.is_some() && self.sought == self.robot.landmark() {
-            return Err(RoutineError::Found);
-        }
         if steps > PATIENCE {
             return Err(RoutineError::Lost { direction, steps });
         }
@@ -300,12 +306,14 @@ where
         if along.abs() > SETTLED {
             let view = self.view(ahead)?;
             self.drive(ahead, view, -along)?;
+            self.break_off()?;
         }
         let Offset { aside, .. } = self.offset(ahead)?;
         if aside.abs() > SETTLED {
             let left = ahead.turned(FRAC_PI_2);
             self.turn_to(left)?;
             self.command(0.0, -aside)?;
+            self.break_off()?;
         }
         Ok(())
     }
