@@ -268,6 +268,8 @@ impl Guide {
         (self.under_way, self.last, self.doubt, self.is_carried) = (None, None, None, false);
         self.whereabouts = Whereabouts::Unknown;
         self.landmarks.clear();
+        self.gone.clear();
+        self.patrol = None;
         self.planner.drop_script();
         true
     }
@@ -616,11 +618,11 @@ impl Guide {
             return String::new();
         };
         let place = observer.place().0;
-        let at = match (self.whereabouts, observer.tracks().len()) {
-            _ if self.under_way.is_some() => "between places".to_owned(),
-            (Whereabouts::Unknown, _) => "between places".to_owned(),
-            (_, 1) => format!("at place {place}"),
-            (_, tracks) => format!("at place {place}, or at one of {} others", tracks - 1),
+        let is_between = self.under_way.is_some() || self.whereabouts == Whereabouts::Unknown;
+        let at = match observer.tracks().len() {
+            _ if is_between => "between places".to_owned(),
+            1 => format!("at place {place}"),
+            tracks => format!("at place {place}, or at one of {} others", tracks - 1),
         };
         match self.doubt.and_then(|_| observer.self_check().complaint()) {
             Some(complaint) => format!("{at}; {complaint}"),
