@@ -82,7 +82,7 @@ impl Diktiometry {
     }
 
     /// Returns the distance from one place to another as the crow flies, m. Frames that are not
-    /// related put them [`UNRELATED`] apart.
+    /// related put them 1 m apart.
     #[must_use]
     pub fn distance(&self, from: PlaceId, to: PlaceId) -> f64 {
         let there = self.related(from, to);
@@ -90,7 +90,7 @@ impl Diktiometry {
     }
 
     /// Returns the cost of a link on a plan, mm: its length. If it lowers the plan's probability of
-    /// success by a factor of e, that costs [`FAILURE`] times as much. In a world that never
+    /// success by a factor of e, that costs 20 times as much. In a world that never
     /// changed, the cheapest plan is the shortest.
     #[must_use]
     pub fn cost(&self, id: LinkId, link: &Link) -> u32 {
