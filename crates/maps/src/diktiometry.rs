@@ -31,11 +31,11 @@
 //!     exits: Exits::Unknown,
 //!     outcome: MoveOutcome::Arrived,
 //! };
-//! // East and back: it cannot be anywhere but where it began.
+//! // East and back: the way back leads to where it began.
 //! let out = observer.step(&go(1, 1.0, 0.0))?;
 //! assert_eq!(out.tracks[0].matcher, Some(Matcher::NewPlace));
 //! let back = observer.step(&go(3, -1.05, 0.02))?;
-//! assert_eq!(back.tracks[0].matcher, Some(Matcher::Link));
+//! assert_eq!(back.tracks[0].matcher, Some(Matcher::Continue));
 //! assert_eq!(back.tracks[0].place, home);
 //! // Two estimates of one way have narrowed it.
 //! let way = back.tracks[0].motion.unwrap();
