@@ -52,7 +52,7 @@ fn worst_mazes(side: u16) -> Vec<Maze> {
     let last = side - 1;
     // Columns that are open in the north and in the south by turns.
     let comb = move |cell: Cell, side| {
-        side == Direction::East && cell.y != if cell.x % 2 == 0 { last } else { 0 }
+        side == Direction::East && cell.y != if cell.x.is_multiple_of(2) { last } else { 0 }
     };
     // Rings around the middle, each with one opening to the next.
     let ring = move |cell: Cell| {
