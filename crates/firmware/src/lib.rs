@@ -1,6 +1,6 @@
 //! The program of a classic micromouse, without its hardware: an example of how wall map, planners
 //! and exploration go together on a chip. No standard library, no allocation, no panic; everything
-//! a [`Mouse`] holds fits into 10,300 bytes.
+//! a [`Mouse`] holds fits into 10 KiB.
 //!
 //! The firmware's main loop drives one cell, reads the three wall sensors and asks for the next
 //! [`Command`]. When it notices a crash, it reports it. A mouse that was moved unnoticed sees walls

@@ -31,8 +31,8 @@ pub struct SpeedRunTimes<const N: usize> {
     /// Times of diagonals of 0 … 2 N − 1 half cell diagonals, ms.
     diagonal: [[u16; N]; 2],
     /// Times of the turns to the left and to the right in the order of [`Slalom`], ms; [`NEVER`]
-    /// for those that the mouse does not make, and for two more: 16 numbers are a mask.
-    turns: [[u32; 8]; 2],
+    /// for those that the mouse does not make.
+    turns: [[u32; 6]; 2],
     /// 2¹⁶ by the time of the shortest move.
     bucket_scale: u32,
     /// What the fastest moves take for each cell along an axis, and for each along both axes, 1/16
@@ -67,16 +67,14 @@ impl<const N: usize> SpeedRunTimes<N> {
         let diagonal_ms =
             |halves: usize| milliseconds(config.diagonal, speed, half_diagonal * halves as f64);
 
-        let mut turns = [[NEVER; 8]; 2];
+        let mut turns = [[NEVER; 6]; 2];
         for (turns, side) in turns.iter_mut().zip([Side::Left, Side::Right]) {
             for (turn, slalom) in turns.iter_mut().zip(Slalom::ALL) {
                 *turn = config.turn_ms(slalom, side)?.unwrap_or(NEVER);
             }
         }
         let made = turns.iter().flatten().filter(|ms| **ms != NEVER);
-        let has_halves = turns
-            .iter()
-            .any(|turns| turns[Slalom::Fs90 as usize] != NEVER);
+        let has_halves = turns.iter().any(|[.., fs90]| *fs90 != NEVER);
         let straights = [straight_ms(2 * N - 1), diagonal_ms(2 * N - 1)];
         let longest_ms = made
             .clone()
@@ -194,7 +192,7 @@ impl<const N: usize> SpeedRunTimes<N> {
     #[inline(always)]
     pub(super) fn numbered_turn_ms(&self, number: usize) -> u32 {
         let turns = self.turns.as_flattened();
-        turns.get(number % 16).copied().unwrap_or(NEVER)
+        turns.get(number).copied().unwrap_or(NEVER)
     }
 
     pub(super) const fn per_cell(&self) -> [u32; 2] {
@@ -209,7 +207,7 @@ impl<const N: usize> SpeedRunTimes<N> {
 
 /// Returns the number of a turn: those to the left come first.
 pub(super) const fn turn_number(slalom: Slalom, side: Side) -> usize {
-    side as usize * 8 + slalom as usize
+    side as usize * 6 + slalom as usize
 }
 
 /// Returns the duration of a straight of `length` millimetres, ms, rounded up.
