@@ -79,14 +79,15 @@ impl HopefulWays<'_> {
     /// Returns the untried way at a place by which the goal may be nearest, and how far it is at
     /// least: along corridors, the first of which is as long as two places are apart.
     fn best_hope(&self, place: PlaceId) -> Option<(Direction, f64)> {
-        let config = self.observer.config();
-        let there = self
-            .observer
-            .map()
-            .displacement(place, self.to, &config.search);
+        let untried = self.observer.untried(place);
+        // The search below is the dear part.
+        if untried.is_empty() {
+            return None;
+        }
+        let (map, config) = (self.observer.map(), self.observer.config());
+        let there = map.displacement(place, self.to, &config.search);
         let (there, least) = (there?.middle().coords, config.separation);
-        let untried = self.observer.untried(place).into_iter();
-        let hopes = untried.filter_map(way_of).map(|way| {
+        let hopes = untried.into_iter().filter_map(way_of).map(|way| {
             let left = there - least * heading_of(way).unit();
             (way, least + left.x.abs() + left.y.abs())
         });
