@@ -80,6 +80,8 @@ mod grid;
 mod knowledge;
 #[cfg(feature = "alloc")]
 mod maze;
+#[cfg(feature = "alloc")]
+mod motion;
 
 pub use cell::Cell;
 pub use direction::Direction;

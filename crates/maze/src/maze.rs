@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 use core::fmt;
 use core::ops::RangeInclusive;
 
+use crate::motion::Motion;
 use crate::{Cell, CheckError, Direction, Grid, Wall, formats};
 
 /// A maze in which every wall is known: the ground truth of a world.
@@ -209,43 +210,32 @@ impl Maze {
     /// Returns the maze turned by a quarter clockwise.
     #[must_use]
     pub fn rotated(&self) -> Self {
-        let side = self.grid.width() - 1;
-        let grid = Grid::new(self.grid.height(), self.grid.width());
-        self.moved(
-            grid,
-            |cell| Cell::new(cell.y, side - cell.x),
-            Direction::right,
-        )
+        self.moved(Motion::Quarter)
     }
 
     /// Returns the maze mirrored, west to east.
     #[must_use]
     pub fn mirrored(&self) -> Self {
-        let side = self.grid.width() - 1;
-        let turned = |direction: Direction| match direction {
-            Direction::East | Direction::West => direction.opposite(),
-            other => other,
-        };
-        self.moved(self.grid, |cell| Cell::new(side - cell.x, cell.y), turned)
+        self.moved(Motion::Mirror)
     }
 
     /// Returns the maze with every cell in its new place and every direction turned.
-    fn moved(
-        &self,
-        grid: Grid,
-        place: impl Fn(Cell) -> Cell,
-        turn: impl Fn(Direction) -> Direction,
-    ) -> Self {
-        let mut moved = Self::open(grid);
+    pub(crate) fn moved(&self, motion: Motion) -> Self {
+        let place = |cell| motion.cell(self.grid, cell);
+        let mut moved = Self::open(motion.grid(self.grid));
         for cell in self.grid.cells() {
-            for direction in Direction::ALL {
-                moved.set_wall(place(cell), turn(direction), !self.is_open(cell, direction));
+            for side in Direction::ALL {
+                moved.set_wall(
+                    place(cell),
+                    motion.direction(side),
+                    !self.is_open(cell, side),
+                );
             }
         }
         moved.start = self
             .start
-            .map(|(cell, heading)| (place(cell), turn(heading)));
-        moved.set_goals(self.goals.iter().copied().map(&place).collect());
+            .map(|(cell, heading)| (place(cell), motion.direction(heading)));
+        moved.set_goals(self.goals.iter().copied().map(place).collect());
         let landmarks = self.landmarks.iter();
         moved.landmarks = landmarks.map(|(cell, n)| (place(*cell), *n)).collect();
         moved

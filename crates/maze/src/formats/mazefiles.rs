@@ -1,4 +1,4 @@
-//! [`Format::Mazefiles`](super::Format::Mazefiles): a drawing alone.
+//! [`Format::Mazefiles`](super::Format::Mazefiles): a drawing alone, of whatever characters.
 
 use alloc::string::String;
 
@@ -15,12 +15,9 @@ pub(super) fn parse(lines: &mut Lines<'_>) -> Result<Parsed, MazeError> {
     Ok(parsed.or_middle())
 }
 
-pub(super) fn write(file: &MazeFile) -> Result<String, WriteError> {
+pub(super) fn write(file: &MazeFile, format: Format) -> Result<String, WriteError> {
     match file.maze.start() {
         Some((_, Direction::North)) => Ok(drawing::text(file)),
-        start => Err(WriteError::Start {
-            format: Format::Mazefiles,
-            start,
-        }),
+        start => Err(WriteError::Start { format, start }),
     }
 }

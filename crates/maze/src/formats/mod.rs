@@ -29,6 +29,7 @@ pub use error::{MazeError, MazeFault, UnknownFormat, WriteError};
 use lines::{Lines, Place};
 pub use maz::maz_text;
 
+use crate::motion::Motion;
 use crate::{Cell, Direction, Grid, Knowledge, Maze, Walls};
 
 /// Contents of a maze file: the maze, and additions that only tolman's own format can hold.
@@ -91,6 +92,28 @@ impl MazeFile {
     /// Minimum and maximum corridor width that is read or written, m. A corridor that no robot fits
     /// through is a typing error, and huge widths break the arithmetic of worlds.
     pub const CORRIDOR_WIDTHS: (f64, f64) = (0.001, 1000.0);
+
+    /// Returns the file with its maze turned by a quarter clockwise.
+    #[must_use]
+    pub fn rotated(self) -> Self {
+        self.moved(Motion::Quarter)
+    }
+
+    /// Returns the file with its maze mirrored, west to east.
+    #[must_use]
+    pub fn mirrored(self) -> Self {
+        self.moved(Motion::Mirror)
+    }
+
+    fn moved(mut self, motion: Motion) -> Self {
+        let grid = self.maze.grid();
+        for (cell, side) in &mut self.unknown {
+            (*cell, *side) = edge(motion.cell(grid, *cell), motion.direction(*side));
+        }
+        self.unknown.sort_unstable();
+        self.maze = self.maze.moved(motion);
+        self
+    }
 }
 
 impl From<Maze> for MazeFile {
@@ -118,11 +141,14 @@ pub enum Format {
     Numbers,
     /// A drawing as in the `mazefiles` collection: 2h + 1 lines of 4w + 1 characters, north first.
     /// Posts are `o` or `+`, walls `---` and `|`, marks `S` and `G`. Cells may have other widths
-    /// than three characters, walls may be drawn with box characters, and a `.` is an unknown wall.
+    /// than three characters, and a `.` is an unknown wall.
     /// Without an `S` the start is the south-west cell; it looks north. Without a `G` the goal is
     /// the middle. The drawing ends at the first line that starts with
     /// neither a post, a wall nor a blank; the rest is ignored.
     Mazefiles,
+    /// The drawing of [`Format::Mazefiles`] in box characters, such as `┌───┐`. Posts may be left
+    /// out where a line runs through or none ends.
+    Boxes,
     /// The `.num` files of the simulator mms: a line `X Y N E S W` for each cell, 1 where a wall
     /// stands. The start is the south-west cell, looking north; the goal is the middle.
     Num,
@@ -148,9 +174,10 @@ pub enum Format {
 
 impl Format {
     /// All formats that can be read and written.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Numbers,
         Self::Mazefiles,
+        Self::Boxes,
         Self::Num,
         Self::Tolman,
         Self::Blocks,
@@ -165,6 +192,7 @@ impl Format {
         match self {
             Self::Numbers => "numbers",
             Self::Mazefiles => "mazefiles",
+            Self::Boxes => "boxes",
             Self::Num => "num",
             Self::Tolman => "tolman",
             Self::Blocks => "blocks",
@@ -179,15 +207,15 @@ impl Format {
     #[must_use]
     pub const fn extension(self) -> &'static str {
         match self {
-            Self::Numbers | Self::Mazefiles | Self::Blocks | Self::Underscores | Self::Hex => "txt",
             Self::Maz => "maz",
             Self::Num => "num",
             Self::Tolman => "maze",
+            _ => "txt",
         }
     }
 
     /// Returns the format of `text`, by its first line that is not blank. A `key = value` or a
-    /// comment is [`Format::Tolman`], a post [`Format::Mazefiles`]. One number, or numbers
+    /// comment is [`Format::Tolman`], a post [`Format::Mazefiles`] or [`Format::Boxes`]. One number, or numbers
     /// separated by commas, is [`Format::Numbers`]; several separated by blanks are
     /// [`Format::Num`].
     ///
@@ -205,15 +233,19 @@ impl Format {
         if maz::begins(text) {
             return Ok(Self::Maz);
         }
-        let text = &*boxes::plain(text);
-        let mut lines = Lines::of(text);
+        let plain = &*boxes::plain(text);
+        let mut lines = Lines::of(plain);
         let all = lines.clone();
         let line = lines
             .next_filled()
             .ok_or(MazeError::at_start(MazeFault::Empty))?;
         let first = line.text.trim();
         if drawing::begins(first) {
-            Ok(Self::Mazefiles)
+            Ok(if boxes::begins(text) {
+                Self::Boxes
+            } else {
+                Self::Mazefiles
+            })
         } else if blocks::begins(all.clone()) {
             Ok(Self::Blocks)
         } else if underscores::begins(first) {
@@ -307,12 +339,15 @@ pub fn write(file: &MazeFile, format: Format) -> Result<String, WriteError> {
     if let Some(side) = error::too_large(grid) {
         return Err(WriteError::TooLarge { side });
     }
-    if !file.unknown.is_empty() && !matches!(format, Format::Mazefiles | Format::Tolman) {
+    if !file.unknown.is_empty()
+        && !matches!(format, Format::Mazefiles | Format::Boxes | Format::Tolman)
+    {
         return Err(WriteError::Unknown { format });
     }
     match format {
         Format::Numbers => numbers::write(&file.maze),
-        Format::Mazefiles => mazefiles::write(file),
+        Format::Mazefiles => mazefiles::write(file, format),
+        Format::Boxes => mazefiles::write(file, format).map(|text| boxes::drawn(&text)),
         Format::Num => num::write(&file.maze),
         Format::Tolman => tolman::write(file),
         Format::Blocks => blocks::write(&file.maze),
@@ -333,7 +368,7 @@ fn parsed(text: &str, format: Format) -> Result<Parsed, MazeError> {
     }
     match format {
         Format::Numbers => numbers::parse(&mut lines),
-        Format::Mazefiles => mazefiles::parse(&mut lines),
+        Format::Mazefiles | Format::Boxes => mazefiles::parse(&mut lines),
         Format::Num => num::parse(&mut lines),
         Format::Tolman => tolman::parse(&mut lines),
         Format::Blocks => blocks::parse(&mut lines),

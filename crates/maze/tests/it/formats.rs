@@ -1,8 +1,10 @@
 //! Tests the meaning of each format's texts, and the mazes that a format cannot hold.
 
+use rand_chacha::ChaCha8Rng;
+use rand_chacha::rand_core::SeedableRng;
 use tolman_maze::{
-    Cell, Direction, Format, Grid, Knowledge, Maze, MazeFile, Walls, WriteError, parse, parse_as,
-    read, write,
+    Braided, Cell, Direction, Format, Grid, Knowledge, Maze, MazeFile, Walls, WriteError, parse,
+    parse_as, read, write,
 };
 
 /// A 4 × 4 maze, the same in all four formats.
@@ -306,7 +308,7 @@ fn formats_have_names() {
     let error = "csv".parse::<Format>().unwrap_err();
     assert_eq!(
         error.to_string(),
-        "`csv` is not a maze format: use numbers, mazefiles, num, tolman, blocks, underscores, hex, maz"
+        "`csv` is not a maze format: use numbers, mazefiles, boxes, num, tolman, blocks, underscores, hex, maz"
     );
     assert_eq!(format!("{:>10}|", Format::Num), "       num|");
 }
@@ -445,4 +447,87 @@ fn four_quarters_and_two_mirrors_change_nothing() {
         maze.mirrored().rotated(),
         maze.rotated().rotated().rotated().mirrored()
     );
+}
+
+/// What every format holds: a square of a size that all have, a start in the corner, the middle for
+/// the goal.
+fn classic(side: u16, seed: u64) -> MazeFile {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let braided = Braided {
+        width: side,
+        height: side,
+        share: 0.5,
+    };
+    let mut maze = braided.generate(&mut rng).unwrap();
+    maze.set_goals(maze.grid().middle().collect());
+    in_the_corner(maze.into())
+}
+
+fn in_the_corner(mut file: MazeFile) -> MazeFile {
+    file.maze
+        .set_start(Some((Cell::new(0, 0), Direction::North)));
+    file
+}
+
+#[test]
+fn every_format_becomes_every_other_turned_and_mirrored() {
+    for (side, seed) in [(16, 1), (16, 2), (32, 3)] {
+        let file = classic(side, seed);
+        for from in Format::ALL {
+            let text = write(&file, from).unwrap();
+            assert_eq!(Format::detect(&text), Ok(from));
+            for motion in 0..8 {
+                let mut expected = parse(&text).unwrap();
+                if motion >= 4 {
+                    expected = expected.mirrored();
+                }
+                for _ in 0..motion % 4 {
+                    expected = expected.rotated();
+                }
+                let expected = in_the_corner(expected);
+                for to in Format::ALL {
+                    let text = write(&expected, to).unwrap();
+                    assert_eq!(parse(&text).unwrap(), expected, "{from} to {to}, {motion}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn unknown_walls_turn_with_their_maze() {
+    let mut file = classic(16, 4);
+    let unknown = |side| (Cell::new(3, 5), side);
+    file.unknown = vec![unknown(Direction::North), unknown(Direction::East)];
+    for (cell, side) in file.unknown.clone() {
+        file.maze.set_wall(cell, side, false);
+    }
+    let turned = file.clone().rotated();
+    assert_eq!(
+        turned.knowledge(Cell::new(5, 12), Direction::South),
+        Knowledge::Unknown
+    );
+    for format in [Format::Mazefiles, Format::Boxes] {
+        let text = write(&in_the_corner(turned.clone()), format).unwrap();
+        assert_eq!(parse(&text).unwrap(), in_the_corner(turned.clone()));
+    }
+    assert_eq!(turned.rotated().rotated().rotated(), file);
+    assert_eq!(file.clone().mirrored().mirrored(), file);
+}
+
+#[test]
+fn a_drawing_of_boxes_looks_like_one() {
+    let text = "\
+┌───┬───┬───┬───┐
+│               │
+│   ┌───────┐   │
+│   │ G   G │   │
+│   │   +   ╵   │
+│   │ G   G     │
+│   │   ╷   ╶───┤
+│ S │   │       │
+└───┴───┴───────┘
+";
+    let file = read(text).unwrap();
+    assert_eq!(write(&file, Format::Boxes).unwrap(), text);
 }

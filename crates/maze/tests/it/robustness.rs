@@ -45,8 +45,9 @@ fn survives(text: &str) -> Result<(), TestCaseError> {
 
 /// Returns a valid file of any format.
 fn valid() -> impl Strategy<Value = String> {
-    // From 4 × 4 on the goals are the classic middle, which every format holds.
-    (2_u16..=5, 0_usize..7, any::<u64>()).prop_map(|(half, format, seed)| {
+    // From 4 × 4 on the goals are the classic middle, which every format holds; the last format, the
+    // binary one, has other sizes.
+    (2_u16..=5, 0..Format::ALL.len() - 1, any::<u64>()).prop_map(|(half, format, seed)| {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let braided = Braided {
             width: 2 * half,
@@ -107,6 +108,6 @@ proptest! {
 
     #[test]
     fn valid_files_cut_short(text in valid(), at in any::<prop::sample::Index>()) {
-        survives(&text[..at.index(text.len())])?;
+        survives(&text.chars().take(at.index(text.len())).collect::<String>())?;
     }
 }

@@ -3,24 +3,26 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use anyhow::anyhow;
 use clap::builder::TypedValueParser;
 
 use super::marks::Marks;
 use super::output::MazeOutput;
-use super::{OrBadInput, Result, input};
+use super::{Result, input};
 use crate::cli::words::words;
 
 /// Writes a maze in another format
 #[derive(clap::Args)]
 #[command(after_help = "\
-Formats: numbers (of the micromouse test program), mazefiles (drawings), num (of the simulator
-mms), tolman (docs/maze-format.md), blocks (grids of #), underscores (drawings of _ and |), hex (a
-digit a cell), maz (binary, a byte a cell). The format of the input is recognized by its text.
+Formats: numbers (of the micromouse test program), mazefiles (drawings), boxes (the same in box
+characters), num (of the simulator mms), tolman (docs/maze-format.md), blocks (grids of #),
+underscores (drawings of _ and |), hex (a digit a cell), maz (binary, a byte a cell). The format of
+the input is recognized by its text. --start and --goal are cells of the maze that is written:
+most formats have the start in the south-west corner.
 
 Examples:
   tolman maze convert mazes/grid/braided-2.txt --to num --out braided-2.num
-  tolman maze convert mazes/grid/braided-2.txt --to tolman --rotate 90 --mirror")]
+  tolman maze convert mazes/grid/braided-2.txt --to tolman --rotate 90 --mirror
+  tolman maze convert mazes/grid/braided-2.txt --to num --rotate 180 --start 0,0")]
 pub(crate) struct Arguments {
     /// Maze file; - reads standard input
     file: PathBuf,
@@ -47,19 +49,13 @@ fn quarters() -> impl TypedValueParser<Value = u8> {
 
 pub(super) fn carry_out(arguments: &Arguments, out: &mut dyn Write) -> Result {
     let mut file = input::parse(&arguments.file)?;
-    arguments.marks.put(&mut file)?;
-    if (arguments.mirror || arguments.rotate > 0) && !file.unknown.is_empty() {
-        return Err(anyhow!(
-            "{}: a maze with unknown walls cannot be turned; leave --rotate and --mirror out",
-            input::name(&arguments.file)
-        ))
-        .or_bad_input();
-    }
     if arguments.mirror {
-        file.maze = file.maze.mirrored();
+        file = file.mirrored();
     }
     for _ in 0..arguments.rotate {
-        file.maze = file.maze.rotated();
+        file = file.rotated();
     }
+    // As the written maze has them: a format may hold one start alone.
+    arguments.marks.put(&mut file)?;
     arguments.output.write(&file, out)
 }

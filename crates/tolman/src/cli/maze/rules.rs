@@ -2,6 +2,8 @@
 
 use tolman_maze::{Cell, Direction, Maze};
 
+use crate::cli::words::counted;
+
 /// Returns what in a maze is against the rules of the contests, in words.
 pub(super) fn broken(maze: &Maze) -> Vec<String> {
     let mut broken = Vec::new();
@@ -28,14 +30,20 @@ pub(super) fn broken(maze: &Maze) -> Vec<String> {
             ));
         }
     }
-    let bare = maze.grid().cells().filter(|cell| {
+    let mut bare = maze.grid().cells().filter(|cell| {
         let is_goal = |cell: Cell| middle.contains(&cell);
         let around =
             [Direction::North, Direction::East].map(|side| maze.grid().neighbour(*cell, side));
         maze.is_room(*cell) && !(is_goal(*cell) && around.into_iter().flatten().all(is_goal))
     });
-    for cell in bare {
-        broken.push(format!("no wall ends at the post north-east of {cell}"));
+    if let Some(first) = bare.next() {
+        let others = match bare.count() {
+            0 => String::new(),
+            n => format!(", nor at {}", counted(n, "other post")),
+        };
+        broken.push(format!(
+            "no wall ends at the post north-east of {first}{others}"
+        ));
     }
     broken
 }
