@@ -56,17 +56,18 @@ impl<const N: usize> Buckets<N> {
         })
     }
 
-    /// Takes a cell out of `bucket`, south-western ones first.
+    /// Takes a cell out of `bucket`, north-eastern ones first: those on the far side of the goal from
+    /// a start in the south-west, so that what they reach is seldom reached again.
     #[inline(always)]
     pub(super) fn pop(&mut self, bucket: usize) -> Option<usize> {
         let bucket = self.ring.as_flattened_mut().get_mut(bucket % (2 * N))?;
         if bucket.rows == 0 {
             return None;
         }
-        let y = bucket.rows.trailing_zeros() as usize % N;
+        let y = (31 - bucket.rows.leading_zeros()) as usize % N;
         let row = bucket.cells.get_mut(y)?;
-        let x = row.trailing_zeros() as usize;
-        *row &= row.wrapping_sub(1);
+        let x = (31 - row.leading_zeros()) as usize & 31;
+        *row &= !(1 << x);
         // No branch, because nothing foresees how many cells are left.
         bucket.rows &= !(u32::from(*row == 0) << y);
         Some(y * N + x)
