@@ -83,7 +83,7 @@ pub use progress::{Progress, ProgressEvent, Remedy, Silent};
 pub use record::{FieldsError, Record, RecordType, require};
 pub use replay_file::write_replay;
 pub use replays::{Recorded, Replays};
-pub use report::tour_html;
+pub use report::{League, LeagueTable, LeagueValue, league_html, tour_html};
 pub use run::{Fields, Job, Run};
 pub use runner::{ExperimentOutcome, execute, play_chunk};
 pub use seed::run_seed;

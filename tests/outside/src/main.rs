@@ -1,6 +1,5 @@
 //! The command `tolman` with a system, a robot, a family of worlds and an experiment of one's own.
 
-mod entry;
 mod experiment;
 mod robot;
 mod system;
@@ -13,7 +12,7 @@ use tolman::{Build, Catalogue};
 fn main() -> ExitCode {
     let catalogue = Catalogue::tolman()
         .program("outside")
-        .system(&entry::PacesEntry)
+        .system(&system::ENTRY)
         .robot(robot::TANK)
         .family(world::TEETH)
         .experiment(experiment::ENTRY);

@@ -1,5 +1,6 @@
 //! A system: it wanders, and its map is its paces, one for each action that was completed.
 
+use tolman::registry::{DrivesBy, LaserEntry, SystemFacts};
 use tolman_systems::baselines::AvoidBrain;
 use tolman_systems::robot::{Mapper, Standing, Task};
 use tolman_systems::{Brain, Doing, TimeStep};
@@ -11,6 +12,14 @@ pub struct Paces {
     #[serde(skip)]
     wander: AvoidBrain,
 }
+
+/// How it is entered: any robot with a laser can carry it.
+pub static ENTRY: LaserEntry<Paces> = LaserEntry::new(SystemFacts {
+    drives: DrivesBy::AnyMap,
+    // Its map has paces, and no places.
+    claims: false,
+    ..SystemFacts::new("paces")
+});
 
 impl Mapper for Paces {
     type Observation = TimeStep;

@@ -33,6 +33,8 @@ pub(crate) fn check() -> Result<()> {
         .args(["build", "--locked", "--quiet", "--target-dir"])
         .arg(&target);
     workspace::succeed(&mut build)?;
+    let worlds = folder.join("worlds");
+    let drawings = fs::read_dir(&worlds)?.collect::<Result<Vec<_>, _>>()?;
     let work = target.join("tmp/outside");
     if work.exists() {
         fs::remove_dir_all(&work)?;
@@ -58,6 +60,12 @@ pub(crate) fn check() -> Result<()> {
     ] {
         workspace::succeed(&mut command(line))?;
     }
+    let mut arena = command("arena --system paces --json");
+    let rows = workspace::output(arena.arg(&worlds))?;
+    ensure!(
+        rows.lines().count() == drawings.len() && rows.contains("\"abstained\":null"),
+        "a row for each of the worlds: {rows}"
+    );
     let mapper = command("host --template mapper").output()?.stdout;
     fs::write(work.join("mapper.py"), mapper)?;
     let mut arena = command("arena --family teeth --worlds 1 --json --mapper");

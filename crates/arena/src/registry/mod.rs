@@ -8,6 +8,7 @@
 
 mod any_robot;
 mod entry;
+mod laser_entry;
 mod learned_map;
 mod list;
 mod robots;
@@ -19,6 +20,7 @@ mod view_file;
 
 pub use any_robot::{AnyRobot, ForRobot, RobotFailure};
 pub use entry::{DemoWorld, DrivesBy, LogMapper, SystemEntry, SystemFacts};
+pub use laser_entry::LaserEntry;
 pub use learned_map::{LearnedMap, MapText};
 pub use list::{Registry, slug};
 pub use robots::{LaserLike, LaserModel, RobotEntry, RobotKind};

@@ -14,12 +14,14 @@ mod abstracts;
 mod figures;
 mod folds;
 mod header;
+mod league;
 mod notes;
 mod pairs;
 mod replays;
 mod table;
 mod tour;
 
+pub use league::{League, LeagueTable, LeagueValue, league_html};
 pub use tour::tour_html;
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};

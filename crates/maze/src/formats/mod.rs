@@ -215,9 +215,9 @@ impl Format {
     }
 
     /// Returns the format of `text`, by its first line that is not blank. A `key = value` or a
-    /// comment is [`Format::Tolman`], a post [`Format::Mazefiles`] or [`Format::Boxes`]. One number, or numbers
-    /// separated by commas, is [`Format::Numbers`]; several separated by blanks are
-    /// [`Format::Num`].
+    /// comment is [`Format::Tolman`], a post [`Format::Mazefiles`] or [`Format::Boxes`]. One
+    /// number, or numbers separated by commas, is [`Format::Numbers`]; several separated by blanks
+    /// are [`Format::Num`].
     ///
     /// # Errors
     /// [`MazeFault::Empty`], or [`MazeFault::UnknownFormat`] with the line.

@@ -45,7 +45,7 @@ fn survives(text: &str) -> Result<(), TestCaseError> {
 
 /// Returns a valid file of any format.
 fn valid() -> impl Strategy<Value = String> {
-    // From 4 × 4 on the goals are the classic middle, which every format holds; the last format, the
+    // From 4 × 4 on the goals are the classic middle, which every format holds; the last format, a
     // binary one, has other sizes.
     (2_u16..=5, 0..Format::ALL.len() - 1, any::<u64>()).prop_map(|(half, format, seed)| {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);

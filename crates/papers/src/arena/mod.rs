@@ -5,6 +5,7 @@
 
 mod errands;
 mod figures;
+mod others;
 mod records;
 mod rows;
 mod verdicts;
@@ -19,8 +20,9 @@ use tolman_experiment::{
 };
 use tolman_replay::Replay;
 
+use self::others::Others;
 pub(crate) use self::records::LearnRun;
-use self::records::{HomeRun, LocateRun};
+use self::records::{ConditionRun, HomeRun, LocateRun};
 use self::rows::{ALL, Held, RowName};
 pub(crate) use self::worlds::{drawn, drawn_sized};
 use crate::rows::row_of;
@@ -73,6 +75,7 @@ const CONDITIONS_TABLE: &str = "conditions";
 struct Arena {
     seed: u64,
     worlds: Vec<ArenaWorld>,
+    others: Others,
     schooling: Schooling,
     /// Contests that were already held; several rows use each.
     held: Held,
@@ -102,12 +105,15 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     tables.push(records::sizes(SIZE_TABLE).rows(rows::of_sizes(options)));
     tables.push(records::conditions(CONDITIONS_TABLE).rows(rows::of_conditions(options)));
     tables.push(errands::table(&worlds, options));
+    let others = Others::found(options.seed)?;
+    tables.push(others::table(&others, options));
     let mut config = toml::Table::new();
     let named = worlds.iter().map(ArenaWorld::config);
     config.insert("worlds".to_owned(), named.collect::<Vec<_>>().into());
     let arena = Arena {
         seed: options.seed,
         worlds,
+        others,
         schooling: Schooling::default(),
         held: Held::default(),
     };
@@ -123,6 +129,10 @@ impl Procedure for Arena {
         match job.table {
             SIZE_TABLE => return self.sized(&row, job.run),
             CONDITIONS_TABLE => return self.under_condition(&row, job.run),
+            others::TABLE => {
+                let record = self.among_others(&row, job.run)?;
+                return Ok(ConditionRun::of(&record).fields()?);
+            }
             _ => {}
         }
         let (_, task, robot) = row_of(job, TABLES, |(name, ..)| *name == job.table)?;
@@ -165,6 +175,7 @@ impl Procedure for Arena {
                 Condition::AsMade,
             ),
             CONDITIONS_TABLE => (self.world_of_condition(job.run)?, rows::condition_of(&row)?),
+            others::TABLE => (self.world_of_others(&row, job.run)?, Condition::AsMade),
             _ => (self.world(&row, job.run)?, Condition::AsMade),
         };
         let title = format!("{}, run {}", job.row, job.run);
@@ -172,7 +183,7 @@ impl Procedure for Arena {
             condition,
             ..world.contest(row.contestant, robot)
         };
-        let replay = filmed(&title, |watch| contest.play(&self.schooling, watch))?;
+        let replay = filmed(&title, |watch| world.hold(&contest, &self.schooling, watch))?;
         Ok(replay.map(|replay| replay.fact("seed", world.seed.to_string())))
     }
 }

@@ -145,7 +145,7 @@ impl Arena {
 
 /// Returns the number of worlds of each kind for a contestant: the caller's, or else the
 /// experiment's own. It is `slow` for a contestant that takes seconds in each.
-fn runs_of(contestant: &dyn SystemEntry, options: &Options, slow: u32) -> u32 {
+pub(super) fn runs_of(contestant: &dyn SystemEntry, options: &Options, slow: u32) -> u32 {
     match contestant.name() {
         "gng-slam-better" => options.runs_else(slow, slow),
         _ => options.runs_of(&ENTRY),

@@ -56,8 +56,8 @@ impl<const N: usize> Buckets<N> {
         })
     }
 
-    /// Takes a cell out of `bucket`, north-eastern ones first: those on the far side of the goal from
-    /// a start in the south-west, so that what they reach is seldom reached again.
+    /// Takes a cell out of `bucket`, north-eastern ones first. They lie beyond the goal from a
+    /// start in the south-west, so what they reach is seldom reached again.
     #[inline(always)]
     pub(super) fn pop(&mut self, bucket: usize) -> Option<usize> {
         let bucket = self.ring.as_flattened_mut().get_mut(bucket % (2 * N))?;

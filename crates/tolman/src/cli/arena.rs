@@ -1,6 +1,7 @@
 //! `tolman arena`: sends systems into worlds of every kind and compares their maps with the truth.
 
 mod errands;
+mod league;
 mod programs;
 mod verdicts;
 
@@ -21,6 +22,7 @@ use tolman_arena::registry::{Registry, RobotEntry, Schooling, SystemEntry, slug}
 use tolman_papers::arena::{ArenaWorld, DrawnWorld, filmed};
 
 use self::programs::Programs;
+use super::called;
 use super::failure::{note, told};
 use super::outputs::{self, Output};
 use super::replay_file::{self, Overwrite};
@@ -44,7 +46,9 @@ Examples:
   tolman arena mazes/forks.maze --system all
   tolman arena --system mslst --cost
   tolman arena --system micromouse --own-verdict --worlds 3
-  tolman arena --system diktiometry-better --robot laser-pioneer --worlds 1")]
+  tolman arena --system diktiometry-better --robot laser-pioneer --worlds 1
+  tolman arena --system cpm --family star --json > cpm.jsonl
+  tolman arena --league .")]
 pub(super) struct Arguments {
     /// Files of mazes in any format and of worlds of free walls (.json, or the .yaml of a ROS map),
     /// or folders of them, to use instead of the families
@@ -104,6 +108,13 @@ pub(super) struct Arguments {
     /// harder while most maps are right
     #[arg(long, conflicts_with_all = ["mazes", "maze_files", "json", "cost", "condition", "starts", "replay"])]
     own_verdict: bool,
+    /// Merge the files `*.jsonl` of this folder, which `--json` wrote for any number of entrants,
+    /// into one page
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["mazes", "maze_files", "system", "mapper", "brain", "json", "cost", "replay", "own_verdict"])]
+    league: Option<PathBuf>,
+    /// File of the league's page, instead of `league.html` in its folder
+    #[arg(long, value_name = "FILE", requires = "league", value_parser = outputs::file(&["html", "htm"]))]
+    out: Option<Output>,
 }
 
 /// What systems do in the arena.
@@ -150,9 +161,32 @@ struct Line<'a> {
     us_per_step: Option<f64>,
     found: Vec<&'static str>,
     home_over_shortest: Vec<Option<f64>>,
+    #[serde(flatten)]
+    made: &'a Made,
+}
+
+/// How a line of JSON was made: what a league needs to tell entrants apart, and to play them again.
+#[derive(Serialize)]
+struct Made {
+    condition: String,
+    version: String,
+    command: String,
+}
+
+impl Made {
+    fn by(app: &App, condition: Condition) -> Self {
+        Self {
+            condition: slug(&condition.name()),
+            version: app.build.commit.clone(),
+            command: called::command(),
+        }
+    }
 }
 
 pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -> Result {
+    if let Some(folder) = &arguments.league {
+        return league::merge(folder, arguments.out.as_deref(), out);
+    }
     let robot = match arguments.robot.as_str() {
         "own" => None,
         name => Some(app.robot(name)?),
@@ -165,7 +199,15 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
     let condition = condition(app, &arguments.condition, arguments.task)?;
     let worlds = arguments.worlds(app)?;
     if arguments.task == ArenaTask::Errands {
-        return errands::run(arguments, &contestants, robot, condition, &worlds, out);
+        let made = Made::by(app, condition);
+        return errands::run(
+            arguments,
+            &contestants,
+            robot,
+            (condition, &made),
+            &worlds,
+            out,
+        );
     }
     let jobs: Vec<Job<'_>> = contestants
         .iter()
@@ -197,8 +239,9 @@ pub(super) fn carry_out(app: &App, arguments: &Arguments, out: &mut dyn Write) -
         }
     }
     if arguments.json {
+        let made = Made::by(app, condition);
         for ((contestant, world), record) in jobs.iter().zip(&held) {
-            let line = line(*contestant, robot, world, record);
+            let line = line(*contestant, robot, world, record, &made);
             writeln!(out, "{}", serde_json::to_string(&line)?)?;
         }
         return Ok(());
@@ -409,6 +452,7 @@ fn line<'a>(
     robot: Option<RobotEntry>,
     world: &'a DrawnWorld,
     record: &'a ContestRecord,
+    made: &'a Made,
 ) -> Line<'a> {
     let learned = record.learned.as_ref();
     let judged = learned.map(|learned| learned.judgement);
@@ -438,6 +482,7 @@ fn line<'a>(
         metres_over_corridors: learned.map(|learned| learned.driven),
         found: found.collect(),
         home_over_shortest: record.homes.iter().map(|home| home.over_shortest).collect(),
+        made,
     }
 }
 

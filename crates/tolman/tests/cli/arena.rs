@@ -44,6 +44,50 @@ fn files_are_worlds_too_and_every_world_is_a_line_of_json() {
 }
 
 #[test]
+fn rows_of_many_entrants_become_one_page() {
+    let folder = folder("arena-league");
+    let arena = |more: &[&str]| {
+        let star = ["arena", "--family", "star", "--json"];
+        tolman_in(&folder, &[&star[..], more].concat()).done()
+    };
+    let write = |name: &str, rows: String| std::fs::write(folder.join(name), rows).unwrap();
+    let cpm = arena(&["--system", "cpm-better"]);
+    write("cpm.jsonl", cpm.clone() + &cpm);
+    write("mslst.jsonl", arena(&["--system", "mslst"]));
+    write("notes.txt", "seed 1".to_owned());
+    let league = || tolman_in(&folder, &["arena", "--league", "."]);
+    let told = league().failed(0, &["notes.txt is left out"]);
+    assert!(told.starts_with("4 rows on "), "{told}");
+    let page = || std::fs::read_to_string(folder.join("league.html")).unwrap();
+    let alike = page();
+    assert!(alike.contains("All were in the same 2 worlds."), "{alike}");
+    let place = |entrant: &str| {
+        alike
+            .find(&format!("<th scope=\"row\">{entrant} on "))
+            .unwrap()
+    };
+    assert!(place("cpm-better") < place("mslst"), "the best is first");
+    assert!(
+        alike.contains("<b>100</b><small>34 to 100, 2 worlds</small>"),
+        "{alike}"
+    );
+    assert!(alike.contains("--system mslst</code>"));
+    write("mslst.jsonl", arena(&["--system", "mslst", "--seed", "2"]));
+    write(
+        "errands.jsonl",
+        arena(&["--system", "cpm-better", "--task", "errands"]),
+    );
+    league().failed(0, &[]);
+    assert!(page().contains("They were not all in the same worlds"));
+    assert!(page().contains("Errands: deliveries, % of an oracle"));
+    write("bad.jsonl", "{\"system\": \"mine\"}".to_owned());
+    league().refused(2, &["bad.jsonl, line 1: no row", "missing field"]);
+    tolman(&["arena", "--league", "nowhere"]).refused(2, &["nowhere"]);
+    std::fs::create_dir(folder.join("empty")).unwrap();
+    tolman_in(&folder, &["arena", "--league", "empty"]).refused(2, &["no rows", "mine.jsonl"]);
+}
+
+#[test]
 fn a_condition_makes_it_harder() {
     let arguments = ["arena", "--system", "cpm-better", "--family", "ladder"];
     let table = tolman(&[&arguments[..], &["--condition", "wheels-5"]].concat()).done();

@@ -10,7 +10,7 @@ use tolman_arena::contest::{Condition, Contest, ContestError, Errands, ErrandsRe
 use tolman_arena::registry::{RobotEntry, Schooling};
 use tolman_papers::arena::DrawnWorld;
 
-use super::{Arguments, Contestant, Failure, Result, carrier, or_dash};
+use super::{Arguments, Contestant, Failure, Made, Result, carrier, or_dash};
 
 /// Result of a run, for `--json`.
 #[derive(Serialize)]
@@ -31,6 +31,8 @@ struct Line<'a> {
     deliveries: &'a [f64],
     /// The same of the oracle.
     oracle: &'a [f64],
+    #[serde(flatten)]
+    made: &'a Made,
 }
 
 /// A contestant, whether it learns the world first, and its record in each world.
@@ -44,7 +46,7 @@ pub(super) fn run(
     arguments: &Arguments,
     contestants: &[Contestant],
     robot: Option<RobotEntry>,
-    condition: Condition,
+    (condition, made): (Condition, &Made),
     worlds: &[DrawnWorld],
     out: &mut dyn Write,
 ) -> Result {
@@ -87,7 +89,7 @@ pub(super) fn run(
         })
         .collect();
     match arguments.json {
-        true => lines(&rows, robot, worlds, out),
+        true => lines(&rows, robot, worlds, made, out),
         false => Ok(table(&rows, robot, out)?),
     }
 }
@@ -122,6 +124,7 @@ fn lines(
     rows: &[Sent<'_>],
     robot: Option<RobotEntry>,
     worlds: &[DrawnWorld],
+    made: &Made,
     out: &mut dyn Write,
 ) -> Result {
     for row in rows {
@@ -140,6 +143,7 @@ fn lines(
                 wrong_arrivals: record.wrong_arrivals,
                 deliveries: &record.deliveries,
                 oracle: &record.oracle,
+                made,
             };
             writeln!(out, "{}", serde_json::to_string(&line)?)?;
         }
