@@ -15,7 +15,7 @@ EXAMPLE = ROOT / "crates" / "python" / "examples" / "learn_a_maze.py"
 
 def test_the_page_runs(monkeypatch, capsys):
     pieces = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.S)
-    assert len(pieces) == 3
+    assert len(pieces) == 4
     monkeypatch.chdir(ROOT)
     names: dict = {}
     for piece in pieces:

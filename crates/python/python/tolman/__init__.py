@@ -10,6 +10,8 @@
 
 from tolman_quantizers import GNG, SOINN, AssociativeMemory, EquilibriumGNG, NotFittedError
 
+from ._arena import arena
+from ._mapper import Belief, Guess, Hello, Mapper, Place, PlaceMap, Step
 from ._planners import Path, shortest_path
 from ._tolman import BumpMap, Drive, Map, Maze, Replay, Robot, learn, map_log, systems
 
@@ -17,15 +19,23 @@ __all__ = [
     "GNG",
     "SOINN",
     "AssociativeMemory",
+    "Belief",
     "BumpMap",
     "Drive",
     "EquilibriumGNG",
+    "Guess",
+    "Hello",
     "Map",
+    "Mapper",
     "Maze",
     "NotFittedError",
     "Path",
+    "Place",
+    "PlaceMap",
     "Replay",
     "Robot",
+    "Step",
+    "arena",
     "learn",
     "map_log",
     "shortest_path",
