@@ -6,6 +6,7 @@
 mod bump_map;
 mod drive;
 mod errors;
+mod grids;
 mod log;
 mod map;
 mod maze;
@@ -21,6 +22,8 @@ mod _tolman {
     use crate::bump_map::PyBumpMap;
     #[pymodule_export]
     use crate::drive::PyDrive;
+    #[pymodule_export]
+    use crate::grids::PyGrids;
     #[pymodule_export]
     use crate::log::map_log;
     #[pymodule_export]

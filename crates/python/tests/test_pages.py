@@ -11,11 +11,12 @@ ROOT = Path(__file__).parents[3]
 PAGE = ROOT / "docs" / "python.md"
 NOTEBOOKS = sorted((ROOT / "crates" / "python" / "examples").glob("*.ipynb"))
 EXAMPLE = ROOT / "crates" / "python" / "examples" / "learn_a_maze.py"
+SCORES = ROOT / "crates" / "python" / "examples" / "grid_scores.py"
 
 
 def test_the_page_runs(monkeypatch, capsys):
     pieces = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.S)
-    assert len(pieces) == 4
+    assert len(pieces) == 5
     monkeypatch.chdir(ROOT)
     names: dict = {}
     for piece in pieces:
@@ -31,6 +32,17 @@ def test_the_example_runs(monkeypatch, capsys, arguments):
     runpy.run_path(str(EXAMPLE), run_name="__main__")
     told = capsys.readouterr().out
     assert "right: True" in told and "30 prototypes" in told and "way on the map: [0" in told
+
+
+def test_the_scores_are_made(monkeypatch, capsys):
+    pytest.importorskip("gymnasium")
+    monkeypatch.setattr(sys, "argv", [str(SCORES), "--episodes", "1", "--size", "5"])
+    runpy.run_path(str(SCORES), run_name="__main__")
+    rows = {(row[:7].strip(), row[8:19].strip()): row[20:].split() for row in capsys.readouterr().out.splitlines()[1:]}
+    assert all(float(row[0]) >= float(row[1]) for row in rows.values())
+    # Who plans has all errands done, and sees all.
+    assert rows["errand", "planner"][5] == rows["learn", "planner"][5] == "100"
+    assert len(rows) == 7
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)

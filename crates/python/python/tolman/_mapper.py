@@ -121,7 +121,9 @@ def _guesses(belief: Belief) -> list[Guess]:
         return []
     if isinstance(belief, list):
         return belief
-    return [{"place": belief} if np.ndim(belief) == 0 else {"point": cast("tuple[float, float]", belief)}]
+    if np.ndim(belief) == 0:
+        return [{"place": cast(int, belief)}]
+    return [{"point": cast("tuple[float, float]", belief)}]
 
 
 def _written(answer: dict[str, Any]) -> str:
