@@ -15,6 +15,7 @@ import tolman
 from tolman.gym import GridEnv
 
 AHEAD, RIGHT, LEFT = range(3)
+TURNS: list[list[int]] = [[], [RIGHT], [RIGHT, RIGHT], [LEFT]]
 STEPS = [(0, 1), (1, 0), (0, -1), (-1, 0)]
 NAMES = ["north", "east", "south", "west"]
 
@@ -22,6 +23,8 @@ Cell = tuple[int, int]
 # A cell, and quarter turns to the right from north: by the robot's own count, from where it began.
 Stand = tuple[Cell, int]
 Policy = Callable[[Any], int]
+# What a robot may be told: its environment, where it begins, and a seed.
+Maker = Callable[[GridEnv, tuple[int, int, int], int], Policy]
 
 
 def beyond(cell: Cell, heading: int) -> Cell:
@@ -36,8 +39,8 @@ def after(stand: Stand, action: int) -> Stand:
 class Chance:
     """Moves at random; in Locate it tells a pose at random after some moves."""
 
-    def __init__(self, env: GridEnv, seed: int) -> None:
-        self.random, self.actions = random.Random(seed), int(env.action_space.n)
+    def __init__(self, env: GridEnv, pose: tuple[int, int, int], seed: int) -> None:
+        self.random, self.actions = random.Random(seed), env.action_count
 
     def __call__(self, seen: Any) -> int:
         return self.random.randrange(3 if self.random.random() < 0.95 else self.actions)
@@ -46,7 +49,7 @@ class Chance:
 class Planner:
     """Goes to the wanted landmark by ways that it knows, or to the nearest cell where it has not been."""
 
-    def __init__(self, env: GridEnv, seed: int) -> None:
+    def __init__(self, env: GridEnv, pose: tuple[int, int, int], seed: int) -> None:
         self.stand: Stand = ((0, 0), 0)
         self.open: dict[Cell, list[bool]] = {}
         self.landmarks: dict[int, Cell] = {}
@@ -81,8 +84,8 @@ class Planner:
 class Bumps:
     """Follows the advice of a `BumpMap`, which learns from moves and bumps alone."""
 
-    def __init__(self, env: GridEnv, seed: int) -> None:
-        self.map, self.heading, self.tried = tolman.BumpMap(), 0, False
+    def __init__(self, env: GridEnv, pose: tuple[int, int, int], seed: int) -> None:
+        self.map, self.heading, self.tried, self.could = tolman.BumpMap(), 0, False, False
 
     def __call__(self, seen: Any) -> int:
         if self.tried:
@@ -97,7 +100,7 @@ class Bumps:
 class Elimination:
     """Walks along walls until but one pose explains what it saw, and tells that one."""
 
-    def __init__(self, env: GridEnv, seed: int) -> None:
+    def __init__(self, env: GridEnv, pose: tuple[int, int, int], seed: int) -> None:
         self.width, self.height = env.maze.width, env.maze.height
         self.poses: list[Stand] = [((x, y), turn) for x in range(self.width) for y in range(self.height) for turn in range(4)]
         self.turned, self.patience = False, self.width * self.height
@@ -122,9 +125,34 @@ class Elimination:
         return action
 
 
-POLICIES: dict[str, dict[str, Callable[[GridEnv, int], Policy]]] = {
+class Micromouse:
+    """Obeys a `Mouse`, which is told the size of the maze and where it begins. It needs rays."""
+
+    def __init__(self, env: GridEnv, pose: tuple[int, int, int], seed: int) -> None:
+        x, y, heading = pose
+        self.mouse = tolman.Mouse(env.maze.width, env.maze.height, (x, y), NAMES[heading])
+        self.believed = 0  # quarter turns from the robot's heading to the mouse's: a mouse can drive back
+        self.actions: list[int] = []
+
+    def __call__(self, seen: Any) -> int:
+        while not self.actions:
+            left, ahead, right = (int(seen["sides"][(self.believed + side) % 4]) for side in (3, 0, 1))
+            order = self.mouse.next(left, ahead, right)
+            if order is None:
+                return RIGHT  # it believes that it has seen all
+            degrees, cells = order
+            self.believed = (self.believed + degrees // 90) % 4
+            if cells:
+                turn = (self.believed + (0 if cells > 0 else 2)) % 4
+                self.actions = [*TURNS[turn], *[AHEAD] * abs(cells)]
+                self.believed = (self.believed - turn) % 4
+        return self.actions.pop(0)
+
+
+POLICIES: dict[str, dict[str, Maker]] = {
     "errand": {"planner": Planner, "chance": Chance},
     "learn": {"planner": Planner, "bump map": Bumps, "chance": Chance},
+    "learn, rays": {"micromouse": Micromouse, "planner": Planner, "chance": Chance},
     "locate": {"elimination": Elimination, "chance": Chance},
 }
 FAMILIES = "perfect, braided, braided rooms, office, blocks, ladder, eight, ring, wings, comb, spiral, star, pillars".split(", ")
@@ -134,11 +162,11 @@ FAMILIES = "perfect, braided, braided rooms, office, blocks, ladder, eight, ring
 Played = tuple[float, float, bool, float]
 
 
-def played(env: GridEnv, policy: Callable[[GridEnv, int], Policy], seed: int) -> Played:
+def played(env: GridEnv, policy: Maker, seed: int) -> Played:
     """Play an episode."""
-    seen, _ = env.reset(seed=seed)
+    seen, known = env.reset(seed=seed)
     oracle, least = env.oracle_rewards, env.oracle_steps
-    robot = policy(env, seed)
+    robot = policy(env, known["pose"], seed)
     score, steps, reward, ended, cut = 0.0, 0, 0.0, False, False
     while not ended and not cut:
         seen, reward, ended, cut, _ = env.step(robot(seen))
@@ -153,20 +181,22 @@ def main() -> None:
     asked.add_argument("--size", type=int, default=8, help="cells on a side")
     given = asked.parse_args()
     seeds = range(given.seed, given.seed + given.episodes)
-    print(f"{'task':7} {'robot':11} {'oracle':>7} {'score':>7} {'behind':>14} {'done, %':>8} {'steps / oracle':>15}  farthest behind")
+    print(f"{'task':11} {'robot':11} {'oracle':>7} {'score':>7} {'behind':>14} {'done, %':>8} {'steps / oracle':>15}  farthest behind")
     for task, policies in POLICIES.items():
-        envs = {family: GridEnv(task, family, width=given.size, height=given.size) for family in FAMILIES}
+        size = {"width": given.size, "height": given.size}
+        envs = {family: GridEnv(task.split(",")[0], family, **size, rays="rays" in task) for family in FAMILIES}
         for name, policy in policies.items():
             scores = {family: np.array([played(env, policy, seed) for seed in seeds], float) for family, env in envs.items()}
             every = np.concatenate(list(scores.values()))
             score, oracle, done, _ = every.mean(axis=0)
             behind = every[:, 1] - every[:, 0]
             error = 1.96 * behind.std(ddof=1) / len(behind) ** 0.5
-            steps = every[every[:, 2] > 0, 3].mean()
+            is_done = every[:, 2] > 0
+            steps = f"{every[is_done, 3].mean():.2f}" if is_done.any() else "–"
             means = {family: one.mean(axis=0) for family, one in scores.items()}
             worst = min(means, key=lambda family: float(means[family][0] - means[family][1]))
             lowest = f"{worst}: {means[worst][0]:.2f} of {means[worst][1]:.2f}"
-            print(f"{task:7} {name:11} {oracle:7.2f} {score:7.2f} {behind.mean():6.2f} ± {error:5.2f} {100 * done:8.0f} {steps:15.2f}  {lowest}")
+            print(f"{task:11} {name:11} {oracle:7.2f} {score:7.2f} {behind.mean():6.2f} ± {error:5.2f} {100 * done:8.0f} {steps:>15}  {lowest}")
 
 
 if __name__ == "__main__":

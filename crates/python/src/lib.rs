@@ -10,6 +10,7 @@ mod grids;
 mod log;
 mod map;
 mod maze;
+mod mouse;
 mod planners;
 mod replay;
 mod robot;
@@ -30,6 +31,8 @@ mod _tolman {
     use crate::map::PyMap;
     #[pymodule_export]
     use crate::maze::PyMaze;
+    #[pymodule_export]
+    use crate::mouse::PyMouse;
     #[pymodule_export]
     use crate::planners::cheapest_path;
     #[pymodule_export]

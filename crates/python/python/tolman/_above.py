@@ -13,12 +13,12 @@ from ._tolman import Maze
 # Pixels of a picture: from one cell to the next, and of a wall.
 CELL, _WALL = 24, 3
 
-GOAL = (190, 235, 190)
+Colour = tuple[int, int, int]
 
-_Colour = tuple[int, int, int]
+GOAL: Colour = (190, 235, 190)
 
 
-def from_above(maze: Maze, robot: tuple[float, float, float], floors: Mapping[tuple[int, int], _Colour]) -> Any:
+def from_above(maze: Maze, robot: tuple[float, float, float], floors: Mapping[tuple[int, int], Colour]) -> Any:
     """Return an array of shape (rows, columns, 3) of uint8: walls, coloured floors and the robot.
 
     `robot` is x and y in cells from the south-west corner, and the heading, rad.

@@ -12,7 +12,7 @@ from gymnasium import spaces
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
-from ._above import GOAL, from_above
+from ._above import GOAL, Colour, from_above
 from ._tolman import Grids, Maze
 
 _Observation = dict[str, Any]
@@ -24,7 +24,7 @@ _PATIENCE = {"errand": 4, "learn": 10, "locate": 10}
 _SEED = 2**63
 
 # Colour of a landmark to which the robot does not drive.
-_LANDMARK = (225, 225, 240)
+_LANDMARK: Colour = (225, 225, 240)
 
 
 class _Grid:
@@ -85,8 +85,8 @@ class GridEnv(gymnasium.Env[_Observation, Any]):
     no wall, or with `rays` the number of cells that it can look along. Each step costs 0.01.
 
     - errand: it drives to one of `landmarks` after another, `errands` in all, in a maze that it
-      does not know. `here` is the landmark of its cell, `wanted` the one to drive to, 0 is none.
-      Each that it comes to gives 1.
+      does not know. `here` is the landmark of its cell, `wanted` the one to drive to; 0 means no
+      landmark. Each wanted one that it comes to gives 1.
     - learn: each cell and each opening between two cells gives 1 when it is first seen; what is
       seen from the start is known. It ends when all is seen.
     - locate: it is put down in any cell with any heading of a maze that it knows, `walls` as
@@ -159,6 +159,11 @@ class GridEnv(gymnasium.Env[_Observation, Any]):
     def maze(self) -> Maze:
         """The maze of this episode."""
         return self._grid.robots.mazes[0]
+
+    @property
+    def action_count(self) -> int:
+        """The number of actions."""
+        return self._grid.robots.action_count
 
     @property
     def oracle_steps(self) -> int:

@@ -5,7 +5,20 @@ from typing import Any, final
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["BumpMap", "Drive", "Grids", "Map", "Maze", "Replay", "Robot", "cheapest_path", "learn", "map_log", "systems"]
+__all__ = [
+    "BumpMap",
+    "Drive",
+    "Grids",
+    "Map",
+    "Maze",
+    "Mouse",
+    "Replay",
+    "Robot",
+    "cheapest_path",
+    "learn",
+    "map_log",
+    "systems",
+]
 
 @final
 class BumpMap:
@@ -59,6 +72,13 @@ class Maze:
     def _repr_html_(self) -> str: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
+
+@final
+class Mouse:
+    """A micromouse that visits every cell of a maze, of which it knows the size."""
+
+    def __new__(cls, width: int, height: int, start: tuple[int, int] = (0, 0), heading: str = "north") -> Mouse: ...
+    def next(self, left: int, ahead: int, right: int) -> tuple[int, int] | None: ...
 
 @final
 class Robot:

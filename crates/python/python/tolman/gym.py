@@ -126,7 +126,7 @@ def register() -> None:
     """Let `gymnasium.make` know the environments: called on import."""
     if "tolman/Maze-v0" in gymnasium.registry:
         return
-    enter = gymnasium.register  # pyright: ignore[reportUnknownMemberType]
+    enter = gymnasium.register  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
     enter(id="tolman/Maze-v0", entry_point="tolman.gym:MazeEnv")
     for name in ("Errand", "Learn", "Locate"):
         enter(

@@ -65,7 +65,7 @@ impl Settings {
         Ok(self)
     }
 
-    /// Returns the number of actions: moves, and in [`GridTask::Locate`] the poses that can be told.
+    /// Returns the number of actions: moves, and to locate the poses that can be told.
     pub(super) fn action_count(&self) -> u32 {
         let (width, height) = self.size;
         match self.task {
@@ -74,7 +74,7 @@ impl Settings {
         }
     }
 
-    /// Returns where mazes come from.
+    /// Returns the origin of the mazes.
     ///
     /// # Errors
     /// A `ValueError` if no family has the name, or the maze has another size.
