@@ -3,6 +3,8 @@
 //! `python/tolman` is the other part: the environment and the types. Slow or long work
 //! happens here, with Python's lock released.
 
+extern crate alloc;
+
 mod bump_map;
 mod drive;
 mod errors;

@@ -268,6 +268,9 @@ def test_a_picture_shows_landmarks_and_the_robot():
         (lambda: GridEnv("learn", "round"), "maze is 'round' but has to be one of perfect"),
         (lambda: GridEnv("learn", "office", width=2, height=2), "width 2, height 2: "),
         (lambda: GridEnv("learn", width=0), "width is 0 but has to be from 1 to 255"),
+        (lambda: GridEnv("learn", height=70_000), "height is 70000 but has to be from 1 to 255"),
+        (lambda: GridVectorEnv("learn", 2).reset(seed=[-1, 1]), "seed is -1 but has to be from 0"),
+        (lambda: GridVectorEnv("learn", 2).reset(seed=2**63 - 1), f"seed is {2**63} but"),
         (lambda: GridEnv("errand", landmarks=1), "landmarks is 1 but has to be from 2"),
         (lambda: GridEnv("errand", landmarks=25), "landmarks is 25, but the maze has only 24 other cells"),
         (lambda: GridEnv("errand", errands=0, max_steps=9), "errands is 0"),
@@ -299,6 +302,16 @@ def test_gymnasium_finds_them_by_the_name_of_their_module(name):
     code = f"import gymnasium; print(gymnasium.make('tolman.gym:tolman/{name}-v0').reset(seed=1))"
     made = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert "pose" in made.stdout and not made.stderr
+
+
+def test_those_of_gymnasium_can_hold_them():
+    sync = gymnasium.make_vec("tolman/Errand-v0", num_envs=3, vectorization_mode="sync", max_steps=30)
+    many = gymnasium.make_vec("tolman/Errand-v0", num_envs=3, max_steps=30)
+    many = gymnasium.wrappers.vector.RecordEpisodeStatistics(many)
+    assert (sync.reset(seed=2)[0]["wanted"] == many.reset(seed=2)[0]["wanted"]).all()
+    for actions in np.random.default_rng(1).integers(0, 3, (100, 3)):
+        assert (sync.step(actions)[1] == many.step(actions)[1]).all()
+    assert many.episode_count == 9
 
 
 def test_a_reset_comes_first():

@@ -13,6 +13,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space
 
 from ._above import GOAL, Colour, from_above
+from ._options import check_render_mode, maze_option
 from ._tolman import Grids, Maze
 
 _Observation = dict[str, Any]
@@ -21,7 +22,8 @@ _Observation = dict[str, Any]
 # in errands for each of them.
 _PATIENCE = {"errand": 4, "learn": 10, "locate": 10}
 
-_SEED = 2**63
+# Number of the seeds that robots take.
+_SEEDS = 2**63
 
 # Colour of a landmark to which the robot does not drive.
 _LANDMARK: Colour = (225, 225, 240)
@@ -68,13 +70,14 @@ class _Grid:
 
     def reset(self, seeds: list[int | None], chance: np.random.Generator, options: dict[str, Any] | None) -> None:
         """Begin episodes. The first ones need seeds: `chance` has those that are not given."""
-        for name, value in (options or {}).items():
-            if name != "maze" or not isinstance(value, (Maze, str)):
-                raise ValueError(f"options has {name!r}: {value!r}, but may only have 'maze': a Maze or the name of a family")
+        maze = maze_option(options)
+        for seed in seeds:
+            if seed is not None and not 0 <= seed < _SEEDS:
+                raise ValueError(f"seed is {seed} but has to be from 0 to {_SEEDS - 1}")
         if not self.is_seeded:
-            seeds = [int(chance.integers(_SEED)) if seed is None else seed for seed in seeds]
-            self.is_seeded = True
-        self.robots.reset(seeds, (options or {}).get("maze"))
+            seeds = [int(chance.integers(_SEEDS)) if seed is None else seed for seed in seeds]
+        self.robots.reset(seeds, maze)
+        self.is_seeded = True
 
 
 class GridEnv(gymnasium.Env[_Observation, Any]):
@@ -114,8 +117,7 @@ class GridEnv(gymnasium.Env[_Observation, Any]):
         max_steps: int | None = None,
         render_mode: str | None = None,
     ) -> None:
-        if render_mode not in (None, "rgb_array"):
-            raise ValueError(f"render_mode is {render_mode!r} but has to be None or 'rgb_array'")
+        check_render_mode(render_mode)
         self._grid = _Grid(task, maze, width, height, rays, landmarks, errands, max_steps, 1)
         self.task = task
         self.max_steps = self._grid.max_steps

@@ -15,6 +15,7 @@ except ImportError as error:
 
 from ._above import GOAL, from_above
 from ._grid_envs import GridEnv, GridVectorEnv
+from ._options import check_render_mode, maze_option
 from ._tolman import Maze, Robot
 
 __all__ = ["GridEnv", "GridVectorEnv", "MazeEnv", "register"]
@@ -47,8 +48,7 @@ class MazeEnv(gymnasium.Env[_Observation, Any]):
         max_steps: int | None = None,
         render_mode: str | None = None,
     ) -> None:
-        if render_mode not in (None, "rgb_array"):
-            raise ValueError(f"render_mode is {render_mode!r} but has to be None or 'rgb_array'")
+        check_render_mode(render_mode)
         if max_steps is not None and max_steps < 1:
             raise ValueError(f"max_steps is {max_steps} but has to be at least 1")
         self.family = maze if isinstance(maze, str) else None
@@ -72,11 +72,10 @@ class MazeEnv(gymnasium.Env[_Observation, Any]):
         `options` may have "maze": a Maze for this episode and those after it, or the name of a family.
         """
         super().reset(seed=seed)
-        for name, value in (options or {}).items():
-            if name != "maze" or not isinstance(value, (Maze, str)):
-                raise ValueError(f"options has {name!r}: {value!r}, but may only have 'maze': a Maze or the name of a family")
-            self.family = value if isinstance(value, str) else None
-            self.maze = self.maze if isinstance(value, str) else value
+        asked = maze_option(options)
+        if asked is not None:
+            self.family = asked if isinstance(asked, str) else None
+            self.maze = self.maze if isinstance(asked, str) else asked
         chance = int(self.np_random.integers(2**63))
         if self.family is not None:
             self.maze = Maze.generate(self.family, 5, 5, seed=chance)

@@ -1,6 +1,6 @@
 //! One episode of one robot.
 
-use std::sync::Arc;
+use alloc::sync::Arc;
 
 use rand_chacha::ChaCha8Rng;
 use tolman_maze::Direction;
@@ -190,7 +190,7 @@ impl Job {
         settings: &Settings,
         rng: &mut ChaCha8Rng,
     ) -> Result<Self, String> {
-        let mut free: Vec<u32> = cells.iter().copied().collect();
+        let mut free: Vec<u32> = cells.to_vec();
         free.retain(|cell| *cell != start.cell);
         if free.len() < settings.landmarks {
             return Err(format!(

@@ -57,22 +57,15 @@ impl PyGrids {
         task: &str,
         maze: Given<'_>,
         seeds: Vec<u64>,
-        width: u16,
-        height: u16,
+        width: i64,
+        height: i64,
         rays: bool,
-        landmarks: usize,
-        errands: usize,
-        max_steps: u32,
+        landmarks: i64,
+        errands: i64,
+        max_steps: i64,
     ) -> PyResult<Self> {
-        let settings = Settings {
-            task: GridTask::of_name(task)?,
-            size: (width, height),
-            rays,
-            landmarks,
-            errands,
-            max_steps,
-        };
-        let settings = settings.checked()?;
+        let numbers = [width, height, landmarks, errands, max_steps];
+        let settings = Settings::new(GridTask::of_name(task)?, rays, numbers)?;
         if seeds.is_empty() {
             return Err(wrong(
                 "seeds is empty but has to have one for each robot".to_owned(),
@@ -116,6 +109,10 @@ impl PyGrids {
     /// Makes a step of each robot: 0 moves it a cell ahead, 1 turns it a quarter to the right, 2 to
     /// the left. In the task `locate` 3 + 4 cell + heading tells where it is. A robot whose episode
     /// has ended begins another one instead, with no reward.
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "Python hands over an array of its own"
+    )]
     fn step<'py>(
         &mut self,
         py: Python<'py>,

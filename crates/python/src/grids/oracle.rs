@@ -1,6 +1,6 @@
 //! Ways of one who knows the maze: what scores are compared with.
 
-use std::collections::VecDeque;
+use alloc::collections::VecDeque;
 
 use super::episode::Unseen;
 use super::floor::{Floor, Stand};

@@ -1,7 +1,7 @@
 //! What all robots of a batch have in common.
 
+use alloc::sync::Arc;
 use core::error::Error;
-use std::sync::Arc;
 
 use pyo3::prelude::*;
 use rand_chacha::ChaCha8Rng;
@@ -15,7 +15,7 @@ use crate::errors::{reasons, wrong};
 use crate::maze::{PyMaze, family};
 
 /// Maximum number of columns and of rows: what a robot senses has a byte for each side.
-const LONGEST: u16 = 255;
+const LONGEST: i64 = 255;
 
 #[derive(Clone, Debug)]
 pub(super) struct Settings {
@@ -45,16 +45,21 @@ pub(super) enum Given<'py> {
 }
 
 impl Settings {
+    /// Returns the settings with these numbers, in Python's words.
+    ///
     /// # Errors
     /// A `ValueError` that names what is too small or too large.
-    pub(super) fn checked(self) -> PyResult<Self> {
-        let (width, height) = self.size;
+    pub(super) fn new(
+        task: GridTask,
+        rays: bool,
+        [width, height, landmarks, errands, max_steps]: [i64; 5],
+    ) -> PyResult<Self> {
         for (name, value, least, most) in [
-            ("width", usize::from(width), 1, usize::from(LONGEST)),
-            ("height", usize::from(height), 1, usize::from(LONGEST)),
-            ("landmarks", self.landmarks, 2, usize::from(u16::MAX)),
-            ("errands", self.errands, 1, usize::from(u16::MAX)),
-            ("max_steps", self.max_steps as usize, 1, u32::MAX as usize),
+            ("width", width, 1, LONGEST),
+            ("height", height, 1, LONGEST),
+            ("landmarks", landmarks, 2, i64::from(u16::MAX)),
+            ("errands", errands, 1, i64::from(u16::MAX)),
+            ("max_steps", max_steps, 1, i64::from(u32::MAX)),
         ] {
             if !(least..=most).contains(&value) {
                 return Err(wrong(format!(
@@ -62,7 +67,14 @@ impl Settings {
                 )));
             }
         }
-        Ok(self)
+        Ok(Self {
+            task,
+            size: (width as u16, height as u16),
+            rays,
+            landmarks: landmarks as usize,
+            errands: errands as usize,
+            max_steps: max_steps as u32,
+        })
     }
 
     /// Returns the number of actions: moves, and to locate the poses that can be told.
