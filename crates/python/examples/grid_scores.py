@@ -196,7 +196,8 @@ def main() -> None:
             means = {family: one.mean(axis=0) for family, one in scores.items()}
             worst = min(means, key=lambda family: float(means[family][0] - means[family][1]))
             lowest = f"{worst}: {means[worst][0]:.2f} of {means[worst][1]:.2f}"
-            print(f"{task:11} {name:11} {oracle:7.2f} {score:7.2f} {behind.mean():6.2f} ± {error:5.2f} {100 * done:8.0f} {steps:>15}  {lowest}")
+            scored = f"{oracle:7.2f} {score:7.2f} {behind.mean():6.2f} ± {error:5.2f}"
+            print(f"{task:11} {name:11} {scored} {100 * done:8.0f} {steps:>15}  {lowest}")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 //! The Rust part of the Python module `tolman`: `tolman._tolman`.
 //!
-//! `python/tolman` is the other part: the environment and the types. Slow or long work
+//! `python/tolman` is the other part: environments, mappers and types. Slow or long work
 //! happens here, with Python's lock released.
 
 extern crate alloc;
