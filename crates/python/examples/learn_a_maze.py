@@ -6,6 +6,7 @@
 import sys
 
 import numpy as np
+import numpy.typing as npt
 import tolman
 
 maze = tolman.Maze(sys.argv[1]) if len(sys.argv) > 1 else tolman.Maze.generate("office", 6, 6, seed=2)
@@ -19,7 +20,7 @@ print(f"{learned}, {learned.outcome}; right: {learned.is_right}")
 # What the laser sees on a drive at random, as prototypes.
 rng = np.random.default_rng(1)
 robot = tolman.Robot(maze, seed=1)
-scans = []
+scans: list[npt.NDArray[np.float64]] = []
 for _ in range(2000):
     robot.step(*rng.uniform(-1.0, 1.0, 2))
     if robot.ranges is not None:

@@ -1,14 +1,18 @@
 //! The Rust part of the Python module `tolman`: `tolman._tolman`.
 //!
-//! `python/tolman` is the other part: the environment and the types. Slow or long work
+//! `python/tolman` is the other part: environments, mappers and types. Slow or long work
 //! happens here, with Python's lock released.
+
+extern crate alloc;
 
 mod bump_map;
 mod drive;
 mod errors;
+mod grids;
 mod log;
 mod map;
 mod maze;
+mod mouse;
 mod planners;
 mod replay;
 mod robot;
@@ -22,11 +26,15 @@ mod _tolman {
     #[pymodule_export]
     use crate::drive::PyDrive;
     #[pymodule_export]
+    use crate::grids::PyGrids;
+    #[pymodule_export]
     use crate::log::map_log;
     #[pymodule_export]
     use crate::map::PyMap;
     #[pymodule_export]
     use crate::maze::PyMaze;
+    #[pymodule_export]
+    use crate::mouse::PyMouse;
     #[pymodule_export]
     use crate::planners::cheapest_path;
     #[pymodule_export]

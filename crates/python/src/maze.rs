@@ -54,13 +54,7 @@ impl PyMaze {
     #[staticmethod]
     #[pyo3(signature = (family = "perfect", width = 8, height = 8, *, seed = 1))]
     fn generate(family: &str, width: u16, height: u16, seed: u64) -> PyResult<Self> {
-        let Some(found) = Family::named(&Family::ARENA, family) else {
-            let names = Family::ARENA.map(|family| family.name);
-            return Err(wrong(format!(
-                "family is '{family}' but has to be one of {}",
-                names.join(", ")
-            )));
-        };
+        let found = self::family("family", family)?;
         let maze = (found.draw)((width, height), &mut ChaCha8Rng::seed_from_u64(seed));
         let maze = maze.map_err(|error| {
             wrong(format!(
@@ -187,20 +181,7 @@ impl PyMaze {
     /// row: 1 for a wall or a post, 0 where it is open. The cell (x, y) is at row
     /// 2 (height − y) − 1, column 2 x + 1.
     fn to_array<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<u8>> {
-        let maze = self.maze();
-        let grid = maze.grid();
-        let (width, height) = (usize::from(grid.width()), usize::from(grid.height()));
-        let mut walls = Array2::<u8>::ones((2 * height + 1, 2 * width + 1));
-        for cell in grid.cells() {
-            let middle = place(grid, cell);
-            walls[middle] = 0;
-            for direction in Direction::ALL {
-                if maze.is_open(cell, direction) {
-                    walls[ahead(middle, direction)] = 0;
-                }
-            }
-        }
-        PyArray2::from_owned_array(py, walls)
+        PyArray2::from_owned_array(py, walls(self.maze()))
     }
 
     /// Returns a drawing as SVG: walls, S at the start and G at the goals.
@@ -337,6 +318,21 @@ impl PyMaze {
     }
 }
 
+/// Returns the family of this name.
+///
+/// # Errors
+/// A `ValueError` that names the parameter, if there is none.
+pub(crate) fn family(parameter: &str, name: &str) -> PyResult<Family> {
+    let found = Family::named(&Family::ARENA, name);
+    found.copied().ok_or_else(|| {
+        let names = Family::ARENA.map(|family| family.name);
+        wrong(format!(
+            "{parameter} is '{name}' but has to be one of {}",
+            names.join(", ")
+        ))
+    })
+}
+
 /// Returns the direction of this name.
 ///
 /// # Errors
@@ -350,6 +346,23 @@ pub(crate) fn direction(parameter: &str, name: &str) -> PyResult<Direction> {
                 "{parameter} is '{name}' but has to be 'north', 'east', 'south' or 'west'"
             ))
         })
+}
+
+/// Returns the walls as [`PyMaze::to_array`] does.
+pub(crate) fn walls(maze: &Maze) -> Array2<u8> {
+    let grid = maze.grid();
+    let (width, height) = (usize::from(grid.width()), usize::from(grid.height()));
+    let mut walls = Array2::<u8>::ones((2 * height + 1, 2 * width + 1));
+    for cell in grid.cells() {
+        let middle = place(grid, cell);
+        walls[middle] = 0;
+        for direction in Direction::ALL {
+            if maze.is_open(cell, direction) {
+                walls[ahead(middle, direction)] = 0;
+            }
+        }
+    }
+    walls
 }
 
 /// Returns the row and column of a cell in an array of walls.

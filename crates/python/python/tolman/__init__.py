@@ -10,22 +10,33 @@
 
 from tolman_quantizers import GNG, SOINN, AssociativeMemory, EquilibriumGNG, NotFittedError
 
+from ._arena import arena
+from ._mapper import Belief, Guess, Hello, Mapper, Place, PlaceMap, Step
 from ._planners import Path, shortest_path
-from ._tolman import BumpMap, Drive, Map, Maze, Replay, Robot, learn, map_log, systems
+from ._tolman import BumpMap, Drive, Map, Maze, Mouse, Replay, Robot, learn, map_log, systems
 
 __all__ = [
     "GNG",
     "SOINN",
     "AssociativeMemory",
+    "Belief",
     "BumpMap",
     "Drive",
     "EquilibriumGNG",
+    "Guess",
+    "Hello",
     "Map",
+    "Mapper",
     "Maze",
+    "Mouse",
     "NotFittedError",
     "Path",
+    "Place",
+    "PlaceMap",
     "Replay",
     "Robot",
+    "Step",
+    "arena",
     "learn",
     "map_log",
     "shortest_path",

@@ -5,7 +5,20 @@ from typing import Any, final
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["BumpMap", "Drive", "Map", "Maze", "Replay", "Robot", "cheapest_path", "learn", "map_log", "systems"]
+__all__ = [
+    "BumpMap",
+    "Drive",
+    "Grids",
+    "Map",
+    "Maze",
+    "Mouse",
+    "Replay",
+    "Robot",
+    "cheapest_path",
+    "learn",
+    "map_log",
+    "systems",
+]
 
 @final
 class BumpMap:
@@ -59,6 +72,13 @@ class Maze:
     def _repr_html_(self) -> str: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
+
+@final
+class Mouse:
+    """A micromouse that visits every cell of a maze, of which it knows the size."""
+
+    def __new__(cls, width: int, height: int, start: tuple[int, int] = (0, 0), heading: str = "north") -> Mouse: ...
+    def next(self, left: int, ahead: int, right: int) -> tuple[int, int] | None: ...
 
 @final
 class Robot:
@@ -154,6 +174,43 @@ class Replay:
     def html(self) -> str: ...
     def save(self, path: str | PathLike[str]) -> None: ...
     def _repr_html_(self) -> str: ...
+
+@final
+class Grids:
+    """Robots that move from cell to cell, each in a maze of its own."""
+
+    def __new__(
+        cls,
+        task: str,
+        maze: Maze | str,
+        seeds: list[int],
+        *,
+        width: int,
+        height: int,
+        rays: bool,
+        landmarks: int,
+        errands: int,
+        max_steps: int,
+    ) -> Grids: ...
+    def reset(self, seeds: list[int | None], maze: Maze | str | None = None) -> None: ...
+    def step(self, actions: npt.NDArray[np.int64]) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.bool_], npt.NDArray[np.bool_]]: ...
+    def observed(self) -> dict[str, npt.NDArray[Any]]: ...
+    @staticmethod
+    def _played(arguments: tuple[Any, ...], named: dict[str, Any], played: list[tuple[int, int, list[int]]]) -> Grids: ...
+    @property
+    def poses(self) -> npt.NDArray[np.int64]: ...
+    @property
+    def mazes(self) -> list[Maze]: ...
+    @property
+    def landmarks(self) -> list[list[tuple[int, int]]]: ...
+    @property
+    def oracle_steps(self) -> npt.NDArray[np.uint32]: ...
+    @property
+    def oracle_rewards(self) -> npt.NDArray[np.float64]: ...
+    @property
+    def ended(self) -> npt.NDArray[np.bool_]: ...
+    @property
+    def action_count(self) -> int: ...
 
 def systems() -> list[str]: ...
 def learn(

@@ -1,4 +1,4 @@
-"""Mazes as environments of gymnasium: `gymnasium.make("tolman/Maze-v0", maze=maze)`."""
+"""Mazes as environments of gymnasium: `gymnasium.make("tolman.gym:tolman/Maze-v0", maze=maze)` and others."""
 
 from __future__ import annotations
 
@@ -13,12 +13,14 @@ try:
 except ImportError as error:
     raise ImportError("tolman.gym needs gymnasium: pip install gymnasium") from error
 
+from ._above import GOAL, from_above
+from ._grid_envs import GridEnv, GridVectorEnv
+from ._options import check_render_mode, maze_option
 from ._tolman import Maze, Robot
 
-_Observation = dict[str, Any]
+__all__ = ["GridEnv", "GridVectorEnv", "MazeEnv", "register"]
 
-# Pixels of a picture: from one cell to the next, and of a wall.
-_CELL, _WALL = 24, 3
+_Observation = dict[str, Any]
 
 
 class MazeEnv(gymnasium.Env[_Observation, Any]):
@@ -46,8 +48,7 @@ class MazeEnv(gymnasium.Env[_Observation, Any]):
         max_steps: int | None = None,
         render_mode: str | None = None,
     ) -> None:
-        if render_mode not in (None, "rgb_array"):
-            raise ValueError(f"render_mode is {render_mode!r} but has to be None or 'rgb_array'")
+        check_render_mode(render_mode)
         if max_steps is not None and max_steps < 1:
             raise ValueError(f"max_steps is {max_steps} but has to be at least 1")
         self.family = maze if isinstance(maze, str) else None
@@ -71,11 +72,10 @@ class MazeEnv(gymnasium.Env[_Observation, Any]):
         `options` may have "maze": a Maze for this episode and those after it, or the name of a family.
         """
         super().reset(seed=seed)
-        for name, value in (options or {}).items():
-            if name != "maze" or not isinstance(value, (Maze, str)):
-                raise ValueError(f"options has {name!r}: {value!r}, but may only have 'maze': a Maze or the name of a family")
-            self.family = value if isinstance(value, str) else None
-            self.maze = self.maze if isinstance(value, str) else value
+        asked = maze_option(options)
+        if asked is not None:
+            self.family = asked if isinstance(asked, str) else None
+            self.maze = self.maze if isinstance(asked, str) else asked
         chance = int(self.np_random.integers(2**63))
         if self.family is not None:
             self.maze = Maze.generate(self.family, 5, 5, seed=chance)
@@ -101,23 +101,9 @@ class MazeEnv(gymnasium.Env[_Observation, Any]):
         """
         if self.render_mode != "rgb_array":
             return None
-        walls = self.maze.to_array()
-        sizes = [[_WALL if at % 2 == 0 else _CELL - _WALL for at in range(count)] for count in walls.shape]
-        stands = walls.repeat(sizes[0], axis=0).repeat(sizes[1], axis=1)
-        picture = np.full((*stands.shape, 3), 255, np.uint8)
-        high = self.maze.height * _CELL + _WALL
-        for east, north in self.maze.goals:
-            top = high - (north + 1) * _CELL - _WALL
-            picture[top : top + _CELL, east * _CELL : (east + 1) * _CELL + _WALL] = (190, 235, 190)
-        picture[stands == 1] = 0
         x, y, heading = self._robot.pose
-        scale, middle = _CELL / self._robot.pitch, _WALL / 2
-        rows, columns = np.ogrid[: stands.shape[0], : stands.shape[1]]
-        for ahead, radius, colour in ((0.0, 5.0, (210, 40, 40)), (3.0, 1.5, (255, 255, 255))):
-            column = x * scale + middle + ahead * math.cos(heading)
-            row = high - y * scale - middle - ahead * math.sin(heading)
-            picture[(rows - row) ** 2 + (columns - column) ** 2 <= radius**2] = colour
-        return picture
+        robot = (x / self._robot.pitch, y / self._robot.pitch, heading)
+        return from_above(self.maze, robot, dict.fromkeys(self.maze.goals, GOAL))
 
     def _observed(self) -> _Observation:
         robot = self._robot
@@ -136,9 +122,18 @@ class MazeEnv(gymnasium.Env[_Observation, Any]):
 
 
 def register() -> None:
-    """Let `gymnasium.make` know the environment: called on import, and by gymnasium itself."""
-    if "tolman/Maze-v0" not in gymnasium.registry:
-        gymnasium.register(id="tolman/Maze-v0", entry_point="tolman.gym:MazeEnv")
+    """Let `gymnasium.make` know the environments: called on import."""
+    if "tolman/Maze-v0" in gymnasium.registry:
+        return
+    enter = gymnasium.register  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
+    enter(id="tolman/Maze-v0", entry_point="tolman.gym:MazeEnv")
+    for name in ("Errand", "Learn", "Locate"):
+        enter(
+            id=f"tolman/{name}-v0",
+            entry_point="tolman.gym:GridEnv",
+            vector_entry_point="tolman.gym:GridVectorEnv",
+            kwargs={"task": name.lower()},
+        )
 
 
 register()
