@@ -21,7 +21,7 @@ SURE, MOST_STEPS = 0.95, 300
 # How far it drives before it plans again, in corridors, and the heading at which it does, rad.
 STRIDE, STRAIGHT = 0.35, 0.3
 # How near it has to have been to notice a landmark, in corridors.
-NEAR = 0.5
+NEAR = 0.35
 
 
 class Wheels:
@@ -38,7 +38,8 @@ class Wheels:
 
     def command(self, turn, distance):
         """Return the command of a motion, or of as much of it as one step makes."""
-        self.asked = [max(-1.0, min(1.0, part / full)) for part, full in zip((turn, distance), self.full)]
+        parts = zip((turn, distance), self.full)
+        self.asked = [max(-1.0, min(1.0, part / full)) for part, full in parts]
         return dict(zip(("turn", "translate"), self.asked))
 
     def toward(self, dx, dy, heading):
@@ -52,6 +53,7 @@ class Wheels:
 class ActiveBrain:
     def __init__(self, hello):
         self.hello, self.mapper, self.wheels = hello, GridMapper(hello), Wheels()
+        self.stride = round(STRIDE * hello.corridor_width / self.mapper.cell)
         self.random = np.random.default_rng(0)
         self.grid, self.steps = None, 0
         # Cells where it stood, as rows and columns.
@@ -74,7 +76,7 @@ class ActiveBrain:
         return self.places(), self.home(told)
 
     def explore(self, sensing):
-        """Drive to the nearest frontier, then to where it has not stood: landmarks show only there."""
+        """Drive to the nearest frontier, then to where it has not stood, for landmarks show there."""
         floor, walls, corner = self.mapper.maps.grid()
         cost = drivable(floor, walls, self.hello.radius / self.mapper.cell)
         x, y, heading = self.mapper.maps.poses[self.mapper.maps.best]
@@ -107,7 +109,7 @@ class ActiveBrain:
 
     def along(self, path, x, y, heading, corner):
         """Drive to a point of a path."""
-        row, column = path[min(len(path) - 1, round(STRIDE * self.hello.corridor_width / self.mapper.cell))]
+        row, column = path[min(len(path) - 1, self.stride)]
         to = (np.array([column, row]) + corner + 0.5) * self.mapper.cell
         return self.wheels.toward(to[0] - x, to[1] - y, heading)
 
@@ -147,7 +149,8 @@ class ActiveBrain:
         """Drive where entropy is expected to fall, and choose again when it is there."""
         scan, rolled, heading = wire.scan(sensing), wire.motion(sensing), sensing["compass"]
         if rolled and self.path:
-            self.gone += rolled.distance * np.array([math.sin(heading), math.cos(heading)]) / self.mapper.cell
+            ahead = np.array([math.sin(heading), math.cos(heading)])
+            self.gone += rolled.distance * ahead / self.mapper.cell
         if sensing["bump"]:
             self.path = None
             return self.wheels.command(0.5, -0.1 * self.hello.corridor_width)
@@ -160,8 +163,8 @@ class ActiveBrain:
             off = np.arange(len(self.path or ()))
         if not self.path:
             return self.wheels.command(1.0, 0.0)
-        ahead = off.argmin() + round(STRIDE * self.hello.corridor_width / self.mapper.cell)
-        dy, dx = (self.path[min(len(self.path) - 1, ahead)] - self.gone) * self.mapper.cell
+        ahead = min(len(self.path) - 1, off.argmin() + self.stride)
+        dy, dx = (self.path[ahead] - self.gone) * self.mapper.cell
         return self.wheels.toward(dx, dy, heading)
 
     def home(self, told):

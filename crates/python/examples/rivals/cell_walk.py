@@ -1,4 +1,4 @@
-"""What a robot does and observes from cell to cell: moves by the compass, and the sides that are open."""
+"""What a robot does and sees from cell to cell: moves by the compass, and which sides are open."""
 
 import math
 
@@ -10,7 +10,10 @@ SIDES = ((1, 0), (0, 1), (-1, 0), (0, -1))  # east, north, west, south
 
 
 class CellWalk:
-    """Actions, looks, and for the judge alone the cells by dead reckoning; looks and cells are one more."""
+    """Actions, looks, and for the judge alone the cells by dead reckoning.
+
+    Looks and cells are one more than actions.
+    """
 
     def __init__(self, width):
         self.width, self.x, self.y = width, 0.0, 0.0

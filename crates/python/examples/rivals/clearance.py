@@ -4,7 +4,10 @@ import numpy as np
 
 
 def clearance(is_in, most):
-    """Return how far each cell's middle is from that of the nearest cell of a set, in cells, up to `most`."""
+    """Return how far each cell is from the nearest of a set, in cells from middle to middle.
+
+    Cells that are farther than `most` have that.
+    """
     rows = np.where(is_in, 0.0, np.inf)
     for _ in range(most):  # along the rows
         rows[:, 1:] = np.minimum(rows[:, 1:], rows[:, :-1] + 1)

@@ -1,4 +1,4 @@
-"""A clone-structured cognitive graph: a hidden Markov model in which each look has states of its own.
+"""A clone-structured cognitive graph: a hidden Markov model whose looks have states of their own.
 
 Source: George, Rikhye, Gothoskar, Guntupalli, Dedieu, Lázaro-Gredilla, "Clone-structured graph
 representations enable flexible learning and vicarious evaluation of cognitive maps", Nature
@@ -8,9 +8,10 @@ EM with a pseudocount, then Viterbi training without.
 
 import numpy as np
 
-# As in the authors' public code (naturecomm_cscg, `train_CHMM` of the notebook's examples).
+# As the authors' public code has them (github.com/vicariousinc/naturecomm_cscg).
 PSEUDOCOUNT, EM_STEPS, VITERBI_STEPS = 2e-3, 1000, 100
-# EM ends where a step gains less than this for each move, in bits.
+# EM ends where a step gains less than this for each move, in bits. Theirs ends where single
+# precision shows no gain.
 GAIN = 1e-5
 
 
@@ -24,9 +25,9 @@ class CloneGraph:
         self.normalize(PSEUDOCOUNT)
 
     def normalize(self, pseudocount):
-        """Make chances of counts. Actions and next states share a sum, as in the authors' code."""
+        """Make chances of counts, given the action, as in the authors' code."""
         counts = self.counts + pseudocount
-        sums = counts.sum(axis=(0, 2), keepdims=True)
+        sums = counts.sum(axis=2, keepdims=True)
         self.transitions = counts / np.where(sums > 0, sums, 1)
 
     def states_of(self, look):

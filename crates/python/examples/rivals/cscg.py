@@ -3,7 +3,7 @@
     tolman arena --mapper 'python3 cscg.py' --family office
     tolman arena --mapper 'python3 cscg.py --odometry' --family office
 
-Source: clone_graph.py. It needs a laser, a compass, odometry from cell to cell and a world of cells,
+Source: clone_graph.py. It needs a laser, a compass, odometry from cell to cell, a world of cells,
 and numpy. With `--odometry` a look names its cell by dead reckoning, so that it has one clone.
 Without, dead reckoning only tells the judge where a place was seen.
 """

@@ -19,7 +19,8 @@ DEAD_END = 0.9
 class FloorPlaces:
     """The graph of a floor; `marks` are the landmarks by name, with their positions, m.
 
-    `floor` and `walls` are grids by row and column, `corner` is the number of the first column and row.
+    `floor` and `walls` are grids by row and column, `corner` has the numbers of the first column
+    and row.
     `stride` is how far apart places on a link are, m.
     """
 
@@ -85,11 +86,11 @@ class FloorPlaces:
         first, last = path[0], path[-1]
         if first == last:
             return length(path) < SPECK * self.clear[first]
-        marks = (first in self.marked) + (last in self.marked)
-        if marks == 1 and 1 in (self.degree(first), self.degree(last)):
+        bare = [end for end in (first, last) if end not in self.marked]
+        if len(bare) == 1 and self.degree(bare[0]) == 1:
             # The robot may have turned back as soon as it noticed the landmark of a dead end.
             return length(path) < DEAD_END * self.stride
-        return marks < 2 and length(path) < max(self.clear[first], self.clear[last])
+        return bool(bare) and length(path) < max(self.clear[first], self.clear[last])
 
     def degree(self, place):
         return sum((path[0] == place) + (path[-1] == place) for path in self.links.values())

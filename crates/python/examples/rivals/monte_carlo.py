@@ -9,7 +9,7 @@ Through KLD-Sampling", International Journal of Robotics Research 22 (2003), equ
 
 import numpy as np
 from clearance import clearance
-from particle_maps import COMPASS, SLIP, TURN_SLIP, VEER
+from particle_maps import COMPASS, GAIN, SLIP, TURN_SLIP, VEER
 
 SAMPLES, FEWEST = 4000, 200
 # Error of the distribution that the number of samples allows, and the quantile of its chance (99 %).
@@ -56,7 +56,7 @@ class MonteCarlo:
         expected = np.minimum(expected, most)
         off = (expected - scan.ranges[picked]) / self.cell
         chance = (1 - STRAY) * np.exp(-(off**2) / 2) + STRAY * self.cell / most
-        logs = np.log(chance).sum(axis=1)
+        logs = GAIN * np.log(chance).sum(axis=1)
         self.weights *= np.exp(logs - logs.max())
         self.weights /= self.weights.sum()
         if 1 / np.sum(self.weights**2) < len(self.poses) / 2:

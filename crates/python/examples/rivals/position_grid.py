@@ -9,12 +9,15 @@ tells the heading, so that the grid has two dimensions.
 import numpy as np
 from clearance import clearance
 from monte_carlo import EVERY, STRAY, expected_ranges
+from particle_maps import GAIN
 from ways import back, ways
 
 # Positions that stand for the belief where the entropy is foreseen, and targets around, in corridors.
 FORESEEN, REACH, SPACING = 30, 3, 0.5
 # What a corridor's width of driving, and a target that is surely occupied, cost beside a nat (β).
 DRIVE, OCCUPIED = 0.05, 3.0
+# Length of the longest beam, in cells, over which stray ranges are spread.
+LONGEST = 13
 # How far the belief spreads in a move, as a share of the weight that goes to the cells beside.
 SPREAD = 0.02
 
@@ -60,8 +63,9 @@ class PositionGrid:
         return np.minimum(expected_ranges(self.far, self.corner, self.cell, spots, along, most), most)
 
     def log_chance(self, expected, ranges):
+        """Return the log-likelihood of ranges."""
         off = (expected - ranges) / self.cell
-        return np.log((1 - STRAY) * np.exp(-(off**2) / 2) + STRAY / 13).sum(axis=-1)
+        return GAIN * np.log((1 - STRAY) * np.exp(-(off**2) / 2) + STRAY / LONGEST).sum(axis=-1)
 
     def likeliest(self):
         """Return the likeliest cell, as row and column, and the weight within half a corridor of it."""
