@@ -67,7 +67,9 @@ class ActiveBrain:
         self.wheels.learn(wire.motion(sensing), sensing["bump"])
         self.steps = 0 if told["put_down"] else self.steps + 1
         if sensing["compass"] is None:
-            return [], self.wheels.command(0.0, 0.0)
+            # A reading may be missing, but not the first.
+            is_blind = self.mapper.maps is None
+            return [], {"give_up": "it needs a compass"} if is_blind else self.wheels.command(0, 0)
         if told["task"] == "explore":
             return self.mapper.explore(told), self.explore(sensing)
         self.find(told)
@@ -76,7 +78,7 @@ class ActiveBrain:
         return self.places(), self.home(told)
 
     def explore(self, sensing):
-        """Drive to the nearest frontier, then to where it has not stood, for landmarks show there."""
+        """Drive to the nearest frontier, then to where it has not stood: landmarks show there."""
         floor, walls, corner = self.mapper.maps.grid()
         cost = drivable(floor, walls, self.hello.radius / self.mapper.cell)
         x, y, heading = self.mapper.maps.poses[self.mapper.maps.best]

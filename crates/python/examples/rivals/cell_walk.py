@@ -26,10 +26,6 @@ class CellWalk:
         (column, row), width = self.cells[-1], self.width
         return [(column + self.x) * width, (row + self.y) * width]
 
-    def lift(self):
-        """Begin another walk: the robot was put down in the middle of a cell."""
-        self.__init__(self.width)
-
     def step(self, sensing, landmark):
         """Note what a time step adds."""
         rolled, scan, along = wire.motion(sensing), wire.scan(sensing), sensing["compass"]
@@ -60,7 +56,8 @@ class CellWalk:
             dx, dy = math.cos(along + bearing), math.sin(along + bearing)
             ahead = dx * side[0] + dy * side[1]
             if ahead > 0.3:
-                off = (0.5 - self.x * side[0] - self.y * side[1]) / ahead  # to the side's line, in cells
+                # To the line of the side, in cells.
+                off = (0.5 - self.x * side[0] - self.y * side[1]) / ahead
                 across = (self.x + off * dx) * side[1] + (self.y + off * dy) * side[0]
                 if abs(across) < 0.25:
                     beyond = reach / self.width > off + 0.1

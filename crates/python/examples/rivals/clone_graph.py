@@ -64,7 +64,7 @@ class CloneGraph:
 
     def learn(self, looks, actions):
         """Learn by EM and then by Viterbi training. Return the log₂-likelihood."""
-        before = -np.inf
+        actions, before = np.asarray(actions, int), -np.inf
         for _ in range(EM_STEPS):
             bits = self.expectation(looks, actions)
             self.normalize(PSEUDOCOUNT)

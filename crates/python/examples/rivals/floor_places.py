@@ -50,8 +50,7 @@ class FloorPlaces:
         """Return the middle of a pixel, m; of a landmark where it stands."""
         if pixel in self.kept:
             return [float(at) for at in self.kept[pixel]]
-        row, column = pixel
-        return [float((column + self.corner[0] + 0.5) * self.cell), float((row + self.corner[1] + 0.5) * self.cell)]
+        return [float(at) for at in (np.array(pixel[::-1]) + self.corner + 0.5) * self.cell]
 
     def trace(self, near):
         """Follow the skeleton from each pixel where not just two ways meet to the next."""
@@ -135,8 +134,10 @@ class FloorPlaces:
     def map(self):
         """Return the map as the arena reads it."""
         ids = {pixel: number for number, pixel in enumerate(sorted(self.places))}
-        places = [{"id": ids[at], "position": self.position(at), "landmark": self.marked.get(at)} for at in ids]
-        return {"places": places, "links": [[ids[path[0]], ids[path[-1]]] for path in self.links.values()]}
+        marks = {at: self.marked.get(at) for at in ids}
+        places = [{"id": ids[at], "position": self.position(at), "landmark": marks[at]} for at in ids]
+        links = [[ids[path[0]], ids[path[-1]]] for path in self.links.values()]
+        return {"places": places, "links": links}
 
 
 def without_pockets(floor, walls):

@@ -12,9 +12,9 @@ AROUND = [(dy, dx) for dy in (-1, 0, 1) for dx in (-1, 0, 1) if dx or dy]
 
 
 def drivable(floor, walls, radius):
-    """Return what a step into each cell costs: more near walls, and infinity where the robot does not fit.
+    """Return what a step into each cell costs: more near walls.
 
-    `radius` is in cells.
+    It is infinite where the robot does not fit; `radius` is in cells.
     """
     far = clearance(walls, most=2 * round(radius) + 4)
     return np.where(without_pockets(floor, walls) & (far > radius), 1 + 4 / far.clip(1) ** 2, np.inf)

@@ -1,4 +1,4 @@
-"""A mapper for the arena: a grid map by a Rao-Blackwellized particle filter, and places on its skeleton.
+"""A mapper for the arena: particles with grid maps, and places on the skeleton of the floor.
 
     tolman arena --mapper 'python3 grid_mapper.py' --family office
 

@@ -12,7 +12,7 @@ from clearance import clearance
 from particle_maps import COMPASS, GAIN, SLIP, TURN_SLIP, VEER
 
 SAMPLES, FEWEST = 4000, 200
-# Error of the distribution that the number of samples allows, and the quantile of its chance (99 %).
+# Error of the distribution that the number of samples allows, and the quantile of 99 %.
 ERROR, QUANTILE = 0.05, 2.33
 # Share of the ranges that anything may explain.
 STRAY = 0.05

@@ -1,4 +1,4 @@
-"""Rao-Blackwellized particle filter for grid maps, with the improved proposal and adaptive resampling.
+"""A Rao-Blackwellized particle filter for grid maps: improved proposal, adaptive resampling.
 
 Source: Grisetti, Stachniss, Burgard, "Improved Techniques for Grid Mapping with Rao-Blackwellized
 Particle Filters", IEEE Transactions on Robotics 23 (2007), algorithm 1 (sections III to V). Each
@@ -14,7 +14,7 @@ PARTICLES = 15
 DRAWN = 20
 # A cell has a wall if at least this share of the beams through it ended there (GMapping).
 WALL = 0.25
-# The likelihoods of beams beside each other depend on each other: the sum counts this part (GMapping).
+# Part of a scan's log-likelihood that counts, since its beams are not independent (GMapping).
 GAIN = 1 / 3
 # Of so many hits one is matched (`lskip` in GMapping).
 EVERY = 2
@@ -64,7 +64,7 @@ class ParticleMaps:
             self.poses[:, 1] += way * np.sin(self.poses[:, 2])
 
     def look(self, scan, compass):
-        """Correct, weigh and draw again by a scan, and draw it into the maps, if the robot moved."""
+        """Correct, weigh and draw again by a scan, and draw it on the maps, if the robot moved."""
         if not self.is_new and self.moved < self.step:
             return
         if not self.is_new:
@@ -86,7 +86,7 @@ class ParticleMaps:
         deviation = np.sqrt(self.spread)
 
         def score(poses):
-            """Return the log of the product of all likelihoods, for rows of poses of each particle."""
+            """Return the log of the product of all likelihoods, for rows of poses by particle."""
             off = poses - guess[:, None]
             moved = np.sum((off / np.maximum(deviation, 1e-4)) ** 2, axis=2) / 2
             fit = GAIN * self.fit(poses, scan) - moved

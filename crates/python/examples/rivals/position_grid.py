@@ -12,7 +12,8 @@ from monte_carlo import EVERY, STRAY, expected_ranges
 from particle_maps import GAIN
 from ways import back, ways
 
-# Positions that stand for the belief where the entropy is foreseen, and targets around, in corridors.
+# Positions that stand for the belief where the entropy is foreseen. How far off the targets are,
+# and how far apart, in corridors.
 FORESEEN, REACH, SPACING = 30, 3, 0.5
 # What a corridor's width of driving, and a target that is surely occupied, cost beside a nat (β).
 DRIVE, OCCUPIED = 0.05, 3.0
@@ -23,7 +24,7 @@ SPREAD = 0.02
 
 
 class PositionGrid:
-    """The belief that the robot is in each cell of a floor, moved as a whole by less than a cell."""
+    """The belief that the robot is in each cell of a floor; all cells are off by less than one."""
 
     def __init__(self, fits, walls, corner, cell, width):
         self.fits, self.corner, self.cell, self.width = fits, np.asarray(corner), cell, width
@@ -68,14 +69,14 @@ class PositionGrid:
         return GAIN * np.log((1 - STRAY) * np.exp(-(off**2) / 2) + STRAY / LONGEST).sum(axis=-1)
 
     def likeliest(self):
-        """Return the likeliest cell, as row and column, and the weight within half a corridor of it."""
+        """Return the likeliest cell, as row and column, and the weight half a corridor around."""
         at = np.unravel_index(self.belief.argmax(), self.belief.shape)
         rows, columns = np.nonzero(self.belief)
         near = np.hypot(rows - at[0], columns - at[1]) <= self.width / self.cell / 2
         return (int(at[0]), int(at[1])), float(self.belief[rows[near], columns[near]].sum())
 
     def action(self, scan, heading, random):
-        """Return the relative way, in cells, to where entropy is expected to fall most for what it costs."""
+        """Return the relative way, in cells, to where entropy falls most for what it costs."""
         rows, columns = np.nonzero(self.belief)
         chosen = random.choice(len(rows), FORESEEN, p=self.belief[rows, columns])
         cells = np.column_stack([columns[chosen], rows[chosen]])
