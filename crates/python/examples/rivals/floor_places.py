@@ -31,7 +31,10 @@ class FloorPlaces:
         self.places, self.links = {}, {}
         self.marked, self.kept = {}, {}
         pixels = reachable(self.fits, self.pixel((0.0, 0.0)))
-        near = neighbours(thinned(pixels))
+        skeleton = thinned(pixels)
+        if pixels.any() and not skeleton.any():  # A round or square room is thinned to nothing.
+            skeleton.flat[np.where(pixels, self.clear, 0).argmax()] = True
+        near = neighbours(skeleton)
         for name, position in marks:
             if near:
                 row, column = self.pixel(position)

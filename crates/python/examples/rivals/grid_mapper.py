@@ -48,6 +48,8 @@ class GridMapper:
     def localize(self, told):
         """Return how much weight the samples give to each place."""
         sensing, map = told["sensing"], self.map() if self.graph is None else self.graph.map()
+        if not map["places"]:
+            return []
         if told["put_down"] or self.samples is None:
             _, walls, corner = self.maps.grid()
             self.samples = MonteCarlo(walls, self.graph.fits, corner, self.cell, sensing["compass"])
