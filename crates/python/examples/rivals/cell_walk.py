@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import wire
 
 # The robot is in the next cell when it is this share of a cell past the middle between both.
@@ -38,6 +39,8 @@ class CellWalk:
                 self.actions.append(action)
                 self.looks.append(None)
                 self.cells.append((self.cells[-1][0] + dx, self.cells[-1][1] + dy))
+        if scan and along is not None:
+            self.correct(scan, along)
         off = max(abs(self.x), abs(self.y))
         seen = self.looks[-1]
         if scan and along is not None and (seen is None or off < self.nearest - 0.02):
@@ -45,6 +48,17 @@ class CellWalk:
         if landmark and seen and off < 0.5 - PAST:  # not one of the cell beside
             seen = (seen[0], str(landmark))
         self.looks[-1] = seen
+
+    def correct(self, scan, along):
+        """Move the robot in its cell by how far the walls that it sees are off the cells' sides."""
+        reach = scan.ranges[scan.met] / self.width
+        bearings = along + scan.bearings[scan.met]
+        hits = np.array([self.x + reach * np.cos(bearings), self.y + reach * np.sin(bearings)])
+        off = hits % 1 - 0.5
+        # A hit in the middle of a side: corners and ends of walls belong to two.
+        is_wall = (np.abs(off[::-1]) > 0.25) & (np.abs(off) < 0.25)
+        shifts = [np.median(far[are]) if are.any() else 0.0 for far, are in zip(off, is_wall)]
+        self.x, self.y = self.x - float(shifts[0]), self.y - float(shifts[1])
 
     def open_sides(self, scan, along):
         """Return which sides of the cell the beams pass, from where the robot is in it."""

@@ -116,7 +116,7 @@ def timed(learn, maze, seconds):
 
 def main():
     options = argparse.ArgumentParser(description="Compare hW-inference with the bump map.")
-    options.add_argument("--family", default="braided")
+    options.add_argument("--family", choices=["perfect", "braided"], default="braided")
     options.add_argument("--side", type=int, default=4)
     options.add_argument("--mazes", type=int, default=10)
     options.add_argument("--seed", type=int, default=1)

@@ -14,6 +14,8 @@ from particle_maps import COMPASS, GAIN, SLIP, TURN_SLIP, VEER
 SAMPLES, FEWEST = 4000, 200
 # Error of the distribution that the number of samples allows, and the quantile of 99 %.
 ERROR, QUANTILE = 0.05, 2.33
+# Cells to drive until a scan counts again.
+FRESH = 3
 # Share of the ranges that anything may explain.
 STRAY = 0.05
 # Steps of a beam at most.
@@ -37,18 +39,26 @@ class MonteCarlo:
             headings = heading + COMPASS * self.random.standard_normal(SAMPLES)
         self.poses = np.column_stack([spots, headings])
         self.weights = np.full(SAMPLES, 1 / SAMPLES)
+        self.moved = np.inf
 
     def move(self, motion):
         """Move the samples by odometry, each with errors of its own."""
         noise = self.random.standard_normal((3, len(self.poses)))
         turn, way = (0, 0) if motion is None else motion
+        self.moved += abs(way)
         self.poses[:, 2] += turn + noise[0] * np.hypot(TURN_SLIP * turn, VEER * way)
         gone = way * (1 + SLIP * noise[1])
         self.poses[:, 0] += gone * np.cos(self.poses[:, 2])
         self.poses[:, 1] += gone * np.sin(self.poses[:, 2])
 
     def look(self, scan):
-        """Weigh the samples by a scan, and draw them again when few have all the weight."""
+        """Weigh the samples by a scan, and draw them again when few have all the weight.
+
+        A second scan from the same place is no news.
+        """
+        if self.moved < FRESH * self.cell:
+            return
+        self.moved = 0.0
         picked = slice(None, None, EVERY)
         most = scan.ranges.max()
         along = self.poses[:, 2, None] + scan.bearings[picked]

@@ -19,7 +19,7 @@ GAIN = 1 / 3
 # Of so many hits one is matched (`lskip` in GMapping).
 EVERY = 2
 # Odometry's standard deviations: of a way for each metre, of a turn for each radian and each metre.
-SLIP, TURN_SLIP, VEER = 0.05, 0.05, 0.05
+SLIP, TURN_SLIP, VEER = 0.2, 0.2, 0.1
 # The compass's standard deviation, rad.
 COMPASS = 0.03
 # Cells that are added on a side where the map ends.

@@ -8,7 +8,7 @@ tells the heading, so that the grid has two dimensions.
 
 import numpy as np
 from clearance import clearance
-from monte_carlo import EVERY, STRAY, expected_ranges
+from monte_carlo import EVERY, FRESH, STRAY, expected_ranges
 from particle_maps import GAIN
 from ways import back, ways
 
@@ -30,11 +30,12 @@ class PositionGrid:
         self.fits, self.corner, self.cell, self.width = fits, np.asarray(corner), cell, width
         self.far = clearance(walls, most=16)
         self.belief = fits / fits.sum()
-        self.offset = np.zeros(2)
+        self.offset, self.moved = np.zeros(2), np.inf
 
     def move(self, motion, heading):
         """Move the belief. What would be in a wall is lost."""
         self.offset += motion.distance * np.array([np.cos(heading), np.sin(heading)]) / self.cell
+        self.moved += abs(motion.distance)
         whole = np.round(self.offset).astype(int)
         self.offset -= whole
         moved = np.roll(self.belief, whole[::-1], (0, 1))
@@ -44,7 +45,10 @@ class PositionGrid:
         self.settle(np.where(self.fits, moved, 0))
 
     def look(self, scan, heading):
-        """Weigh the belief by a scan."""
+        """Weigh the belief by a scan. A second one from the same place is no news."""
+        if self.moved < FRESH * self.cell:
+            return
+        self.moved = 0.0
         rows, columns = np.nonzero(self.belief > 1e-7)
         expected = self.expected(np.column_stack([columns, rows]), heading + scan.bearings[::EVERY], scan)
         logs = self.log_chance(expected, scan.ranges[::EVERY])
