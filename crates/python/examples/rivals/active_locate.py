@@ -124,7 +124,7 @@ class ActiveBrain:
             _, walls, corner = self.mapper.maps.grid()
             cell, graph = self.mapper.cell, self.mapper.graph
             self.ids = [place["id"] for place in map["places"]]
-            self.spots = [place["position"] for place in map["places"]]
+            self.spots = self.mapper.spots
             self.grid = PositionGrid(graph.fits, walls, corner, cell, self.hello.corridor_width)
         elif sensing["odometry"]:
             self.grid.move(wire.motion(sensing), sensing["compass"])

@@ -42,6 +42,7 @@ class FloorPlaces:
                 self.marked[at], self.kept[at] = name, position
         self.trace(near)
         self.contract()
+        self.reach_ends()
         self.part()
 
     def pixel(self, position):
@@ -124,6 +125,28 @@ class FloorPlaces:
                 self.places.discard(place)
                 return True
         return False
+
+    def reach_ends(self):
+        """Move dead ends to the last cell that is as far from the walls as the way there.
+
+        Thinning takes away the end of a line.
+        """
+        rows, columns = np.indices(self.clear.shape)
+        for number, path in self.links.items():
+            for way in (path, path[::-1]):
+                end = way[-1]
+                if end in self.marked or self.degree(end) != 1 or len(way) < 3:
+                    continue
+                back = way[max(0, len(way) - 1 - round(self.stride / 2))]
+                wide = np.median([self.clear[at] for at in way[-round(self.stride / 2) :]])
+                near = np.hypot(rows - end[0], columns - end[1]) <= self.stride / 2
+                cells = np.argwhere(near & (self.clear >= wide - 0.5))
+                if not len(cells):
+                    continue
+                far = ((cells - back) ** 2).sum(axis=1)
+                row, column = cells[far >= far.max() - 1].mean(axis=0).round()
+                if far.max() > (end[0] - back[0]) ** 2 + (end[1] - back[1]) ** 2:
+                    self.kept[end] = (np.array([column, row]) + self.corner + 0.5) * self.cell
 
     def part(self):
         """Put places on the links, about a stride apart: a robot may be put down there, too."""

@@ -6,6 +6,7 @@ Sources: particle_maps.py, floor_places.py and monte_carlo.py name them. It need
 odometry, and numpy. A compass helps. The world need have no cells.
 """
 
+import numpy as np
 import wire
 from floor_places import FloorPlaces
 from landmarks import Landmarks
@@ -21,6 +22,7 @@ class GridMapper:
         self.hello, self.cell = hello, hello.corridor_width / FINE
         self.maps, self.graph, self.samples = None, None, None
         self.marks = Landmarks(hello.corridor_width)
+        self.trail, self.spots = [], []
 
     def explore(self, told):
         """Learn from a step, and return where the robot is."""
@@ -36,6 +38,7 @@ class GridMapper:
             self.maps.look(scan, compass)
         pose = self.maps.poses[self.maps.best]
         self.marks.note(told["landmark"], pose)
+        self.trail.append((float(pose[0]), float(pose[1])))
         return [{"point": [float(pose[0]), float(pose[1])]}]
 
     def map(self):
@@ -43,7 +46,9 @@ class GridMapper:
         floor, walls, corner = self.maps.grid()
         radius, stride = self.hello.radius, self.hello.corridor_width
         self.graph = FloorPlaces(floor, walls, corner, self.cell, radius, stride, self.marks.all())
-        return self.graph.map()
+        map = self.graph.map()
+        self.spots = stood_at([place["position"] for place in map["places"]], self.trail)
+        return map
 
     def localize(self, told):
         """Return how much weight the samples give to each place."""
@@ -58,9 +63,21 @@ class GridMapper:
         scan = wire.scan(sensing)
         if scan:
             self.samples.look(scan)
-        weights = self.samples.at([place["position"] for place in map["places"]])
+        weights = self.samples.at(self.spots)
         order = (-weights).argsort()[:8]
         return [{"place": map["places"][at]["id"], "weight": min(1.0, float(weights[at]))} for at in order]
+
+
+def stood_at(positions, trail):
+    """Return where the robot stood on average when it was nearest to each place.
+
+    A place stands for that; where the robot never was, for its position.
+    """
+    if not positions:
+        return []
+    spots, trail = np.array(positions), np.array(trail)
+    nearest = ((trail[:, None] - spots) ** 2).sum(axis=2).argmin(axis=1)
+    return [trail[nearest == at].mean(axis=0) if at in nearest else spots[at] for at in range(len(spots))]
 
 
 def main():
