@@ -73,6 +73,8 @@ class ActiveBrain:
         if told["task"] == "explore":
             return self.mapper.explore(told), self.explore(sensing)
         self.find(told)
+        if told["put_down"]:  # This reading is still from before the lift.
+            return [], self.wheels.command(0.0, 0.0)
         if told["task"] == "localize":
             return self.places(), self.localize(sensing)
         return self.places(), self.home(told)
@@ -126,7 +128,8 @@ class ActiveBrain:
             self.ids = [place["id"] for place in map["places"]]
             self.spots = self.mapper.spots
             self.grid = PositionGrid(graph.fits, walls, corner, cell, self.hello.corridor_width)
-        elif sensing["odometry"]:
+            return
+        if sensing["odometry"]:
             self.grid.move(wire.motion(sensing), sensing["compass"])
         scan = wire.scan(sensing)
         if scan:

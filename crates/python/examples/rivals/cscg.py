@@ -66,8 +66,9 @@ class CscgMapper:
 
     def localize(self, told):
         """Return the belief over the states after the moves since the robot was put down."""
-        if told["put_down"] or self.later is None:
+        if told["put_down"]:  # This reading is still from before the lift.
             self.later = CellWalk(self.width)
+            return []
         self.later.step(told["sensing"], told["landmark"])
         visits = np.bincount(self.states, minlength=self.graph.starts[-1])
         belief = (visits > 0) / (visits > 0).sum()

@@ -55,7 +55,10 @@ class GridMapper:
         sensing, map = told["sensing"], self.map() if self.graph is None else self.graph.map()
         if not map["places"]:
             return []
-        if told["put_down"] or self.samples is None:
+        if told["put_down"]:  # This reading is still from before the lift.
+            self.samples = None
+            return []
+        if self.samples is None:
             _, walls, corner = self.maps.grid()
             self.samples = MonteCarlo(walls, self.graph.fits, corner, self.cell, sensing["compass"])
         else:
