@@ -260,8 +260,13 @@ const RESAMPLES: u32 = 2000;
 /// the bootstrap's.
 fn value(values: &[f64]) -> Option<LeagueValue> {
     let (mean, count) = (mean(values)?, values.len());
-    let done = values.iter().filter(|value| **value == 1.0).count();
-    let interval = match values.iter().all(|value| *value == 0.0 || *value == 1.0) {
+    // What is all done or not at all is a share of worlds.
+    let (none, all) = (|value: &&f64| **value <= 0.0, |value: &&f64| **value >= 1.0);
+    let (undone, done) = (
+        values.iter().filter(none).count(),
+        values.iter().filter(all).count(),
+    );
+    let interval = match undone + done == count {
         true => wilson_interval(done as u64, count as u64, 0.95),
         false => {
             let rng = &mut ChaCha8Rng::seed_from_u64(1);
