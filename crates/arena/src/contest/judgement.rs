@@ -242,29 +242,46 @@ impl<'a> Chart<'a> {
             let cell = stands_for.get(&place);
             cell.is_some_and(|cell| truth.spots().is_shared(*cell))
         };
-        let mut counts: BTreeMap<(u32, u32), [usize; 2]> = BTreeMap::new();
+        // Number of true ways that join two rooms.
+        let doors = |one: u32, other: u32| match [one, other].map(|end| stands_for.get(&end)) {
+            [Some(one), Some(other)] => {
+                let ways = truth.ways().iter();
+                ways.filter(|way| way.joins(*one, *other)).count()
+            }
+            _ => 0,
+        };
+        // Number of links there and back, of each two places of the two ends.
+        let mut counts: BTreeMap<(u32, u32), BTreeMap<(u32, u32), [usize; 2]>> = BTreeMap::new();
         for link in &map.links {
             let [from, to] = [one(link.from), one(link.to)];
             if from == to && link.from != link.to {
                 continue;
             }
-            let pair = (from.min(to), from.max(to));
-            let count = &mut counts.entry(pair).or_default()[usize::from(from > to)];
-            // Many places of one spot may be linked with many of the next.
-            *count = if is_shared(from) && is_shared(to) {
-                1
-            } else {
-                *count + 1
+            let is_back = from > to;
+            let places = match is_back {
+                true => (link.to, link.from),
+                false => (link.from, link.to),
             };
+            let of_ends = counts.entry((from.min(to), from.max(to))).or_default();
+            of_ends.entry(places).or_default()[usize::from(is_back)] += 1;
         }
         let places = map.places.iter().map(|place| (one(place.id), Vec::new()));
         let mut links: BTreeMap<u32, Vec<(usize, u32)>> = places.collect();
         let mut number = 0;
-        for ((one, other), [there, back]) in counts {
+        for ((one, other), of_places) in counts {
             // A way that can be driven in both directions is on the map twice.
-            let count = match one == other {
+            let each = of_places.values().map(|[there, back]| match one == other {
                 true => there.div_ceil(2),
-                false => there.max(back),
+                false => *there.max(back),
+            });
+            let count = match is_shared(one) && is_shared(other) {
+                // Many places of one room may be linked with many of the next by one way.
+                true => each
+                    .clone()
+                    .max()
+                    .unwrap_or(0)
+                    .max(each.sum::<usize>().min(doors(one, other))),
+                false => each.sum(),
             };
             for _ in 0..count {
                 links.entry(one).or_default().push((number, other));
