@@ -105,13 +105,13 @@ def test_a_copy_goes_on_alike(task, source):
         env.step(row[0])
         many.step(row)
     ones = [env, copy.deepcopy(env), pickle.loads(pickle.dumps(env.unwrapped))]
-    alls = [many, copy.deepcopy(many), pickle.loads(pickle.dumps(many))]
+    batches = [many, copy.deepcopy(many), pickle.loads(pickle.dumps(many))]
     for row in actions[17:]:
         told = [str(one.step(row[0])) for one in ones]
         assert told[0] == told[1] == told[2]
         if "True" in told[0]:
             assert len({str(one.reset()) for one in ones}) == 1
-        told = [str(one.step(row)) for one in alls]
+        told = [str(one.step(row)) for one in batches]
         assert told[0] == told[1] == told[2]
 
 

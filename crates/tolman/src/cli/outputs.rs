@@ -286,6 +286,7 @@ mod tests {
     const VERBS: &[(&str, &str)] = &[
         ("arena", "mazes"),
         ("arena --maze other", "maze_files"),
+        ("arena --league other", "league"),
         ("audit other", "graph"),
         ("brain --system mslst --robot other", "robot"),
         ("demo --maze other", "maze_file"),
