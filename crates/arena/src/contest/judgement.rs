@@ -225,6 +225,9 @@ struct Chain {
     over: Vec<u32>,
 }
 
+/// Number of links there and back, of each two places.
+type LinkCounts = BTreeMap<(u32, u32), [usize; 2]>;
+
 /// Links of a learned map, with the true cells that its places stand for.
 struct Chart<'a> {
     stands_for: &'a BTreeMap<u32, Cell>,
@@ -251,7 +254,7 @@ impl<'a> Chart<'a> {
             _ => 0,
         };
         // Number of links there and back, of each two places of the two ends.
-        let mut counts: BTreeMap<(u32, u32), BTreeMap<(u32, u32), [usize; 2]>> = BTreeMap::new();
+        let mut counts: BTreeMap<(u32, u32), LinkCounts> = BTreeMap::new();
         for link in &map.links {
             let [from, to] = [one(link.from), one(link.to)];
             if from == to && link.from != link.to {
