@@ -22,6 +22,7 @@ const PACKAGES: &[&str] = &[
     "polars",
     "pyarrow",
     "matplotlib",
+    "aalpy",
     "nbclient",
     "ipykernel",
     "mypy",
