@@ -86,16 +86,5 @@ class CscgMapper:
         return [{"place": int(at), "weight": min(1.0, float(belief[at]))} for at in order if belief[at] > 0]
 
 
-def main():
-    mapper = CscgMapper(wire.hello().corridor_width, "--odometry" in sys.argv[1:])
-    for told in wire.told():
-        answers = {}
-        if "map" in told["ask"]:
-            answers["map"] = mapper.map()
-        if "belief" in told["ask"]:
-            answers["belief"] = mapper.explore(told) if told["task"] == "explore" else mapper.localize(told)
-        wire.answer(answers)
-
-
 if __name__ == "__main__":
-    main()
+    wire.watch(CscgMapper(wire.hello().corridor_width, "--odometry" in sys.argv[1:]))

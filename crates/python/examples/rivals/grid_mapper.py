@@ -83,16 +83,5 @@ def stood_at(positions, trail):
     return [trail[nearest == at].mean(axis=0) if at in nearest else spots[at] for at in range(len(spots))]
 
 
-def main():
-    mapper = GridMapper(wire.hello())
-    for told in wire.told():
-        answers = {}
-        if "map" in told["ask"]:
-            answers["map"] = mapper.map()
-        if "belief" in told["ask"]:
-            answers["belief"] = mapper.explore(told) if told["task"] == "explore" else mapper.localize(told)
-        wire.answer(answers)
-
-
 if __name__ == "__main__":
-    main()
+    wire.watch(GridMapper(wire.hello()))

@@ -46,6 +46,17 @@ def answer(answers, **command):
     print(json.dumps({"answer": answers, **command}), flush=True)
 
 
+def watch(mapper):
+    """Answer each line for a mapper that watches, with its map and its belief."""
+    for line in told():
+        answers = {}
+        if "map" in line["ask"]:
+            answers["map"] = mapper.map()
+        if "belief" in line["ask"]:
+            answers["belief"] = mapper.explore(line) if line["task"] == "explore" else mapper.localize(line)
+        answer(answers)
+
+
 def motion(sensing) -> Optional[Motion]:
     """Return the motion, or `None` where its reading is missing."""
     rolled = sensing["odometry"]
