@@ -6,8 +6,8 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use tolman_systems::{Actor, Brain, MapFiles, TimeStep};
 
-use super::{MapText, Setup, SystemEntry, SystemFacts};
-use crate::{BoxError, Outing, Sent};
+use super::{LaserLike, MapText, Setup, SystemEntry, SystemFacts};
+use crate::{BoxError, Outing, Sent, Simulated};
 
 /// The entry of a brain that any robot with a laser can carry: facts are all that it adds. What the
 /// brain has learned is written as it is serialized, and read again to drive by.
@@ -25,6 +25,12 @@ impl<B> LaserEntry<B> {
     pub const fn new(facts: SystemFacts) -> Self {
         let brain = PhantomData;
         Self { facts, brain }
+    }
+
+    const fn files(&self) -> MapFiles {
+        MapFiles {
+            system: self.facts.name,
+        }
     }
 }
 
@@ -46,28 +52,28 @@ where
     }
 
     fn learner(&self, setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
-        let (course, robot, layers) = setup.laser_robot()?;
-        let origin = setup.origin(&course);
-        let files = MapFiles {
-            system: self.facts.name,
-        };
-        let actor = Actor::seeded(B::default(), layers, setup.seed);
-        let sent = Sent::new(course, robot, setup.steps.unwrap_or(u32::MAX), actor);
+        let sent = sent(setup, B::default())?;
+        let (files, origin) = (self.files(), setup.origin(sent.course()));
         let keep = move |actor: &Actor<B>, _: &_| Ok(Some(files.write(&origin, actor.brain())?));
         Ok(Box::new(sent.keeping(keep)))
     }
 
     fn driver(&self, maps: &[MapText], setup: &Setup<'_>) -> Result<Box<dyn Outing>, BoxError> {
-        let files = MapFiles {
-            system: self.facts.name,
-        };
         let map = maps
             .first()
             .ok_or("it drives by a map, and none is given")?;
-        let (_, brain): (_, B) = files.read(&map.text)?;
-        let (course, robot, layers) = setup.laser_robot()?;
-        let actor = Actor::seeded(brain, layers, setup.seed);
-        let steps = setup.steps.unwrap_or(u32::MAX);
-        Ok(Box::new(Sent::new(course, robot, steps, actor)))
+        let (_, brain): (_, B) = self.files().read(&map.text)?;
+        Ok(Box::new(sent(setup, brain)?))
     }
+}
+
+/// Sends out a brain on the laser robot of a setup.
+fn sent<B: Brain>(
+    setup: &Setup<'_>,
+    brain: B,
+) -> Result<Sent<Simulated<LaserLike>, Actor<B>>, BoxError> {
+    let (course, robot, layers) = setup.laser_robot()?;
+    let actor = Actor::seeded(brain, layers, setup.seed);
+    let steps = setup.steps.unwrap_or(u32::MAX);
+    Ok(Sent::new(course, robot, steps, actor))
 }
