@@ -80,6 +80,32 @@ fn rows_of_many_entrants_become_one_page() {
     league().failed(0, &[]);
     assert!(page().contains("They were not all in the same worlds"));
     assert!(page().contains("Errands: deliveries, % of an oracle"));
+    let pillars = ["arena", "--family", "pillars", "--json"];
+    for system in ["cpm", "oracle"] {
+        let rows = tolman_in(&folder, &[&pillars[..], &["--system", system]].concat()).done();
+        write(&format!("{system}-in-pillars.jsonl"), rows);
+    }
+    league().failed(0, &[]);
+    let page = page();
+    let task = |task: &str| {
+        page.split("<h2>")
+            .find(|part| part.starts_with(task))
+            .unwrap()
+    };
+    assert!(task("Home").contains("<th scope=\"row\">oracle on "));
+    assert!(
+        !task("Learn: right").contains(">oracle on "),
+        "a baseline learns no map"
+    );
+    let abstained = task("Locate")
+        .split("<tr")
+        .find(|row| row.contains(">cpm on "));
+    assert!(
+        abstained
+            .unwrap()
+            .contains("<b>0</b><small>0 to 66, 2 worlds"),
+        "who abstains stays in the denominator"
+    );
     write("bad.jsonl", "{\"system\": \"mine\"}".to_owned());
     league().refused(2, &["bad.jsonl, line 1: no row", "missing field"]);
     tolman(&["arena", "--league", "nowhere"]).refused(2, &["nowhere"]);

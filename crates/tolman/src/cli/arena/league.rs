@@ -10,7 +10,7 @@ use rand_chacha::rand_core::SeedableRng;
 use serde::Deserialize;
 use tolman_arena::registry::Registry;
 use tolman_experiment::files::files_in;
-use tolman_experiment::{League, LeagueTable, LeagueValue, league_html};
+use tolman_experiment::{Better, League, LeagueTable, LeagueValue, league_html};
 use tolman_stats::{bootstrap_means, percentile_interval, wilson_interval};
 
 use super::super::failure::note;
@@ -36,6 +36,7 @@ struct Row {
     condition: String,
     version: String,
     command: String,
+    abstained: Option<String>,
     right: Option<bool>,
     says: Option<String>,
     #[serde(default)]
@@ -51,31 +52,31 @@ struct Row {
 /// What a row has done of a task, from 0 to 1; `None` if it has nothing of the task.
 type Done = fn(&Row) -> Option<f64>;
 
-/// The tasks: what the table is called, and what a row has done of it.
-const TASKS: [(&str, Done); 5] = [
-    ("Learn: right maps, % of worlds", |row| {
-        row.oracle_rate
-            .is_none()
-            .then(|| share(row.right == Some(true)))
+/// The tasks: what the table is called, which values are good, and what a row has done of it.
+const TASKS: [(&str, Better, Done); 5] = [
+    ("Learn: right maps, % of worlds", Better::Higher, |row| {
+        row.learned(|right| right == Some(true))
     }),
-    ("Learn: wrong maps called right, % of worlds", |row| {
-        let is_claimed = row.right == Some(false) && row.says.as_deref() == Some("right");
-        row.oracle_rate.is_none().then(|| share(is_claimed))
-    }),
-    ("Locate: told its place rightly, % of times", |row| {
-        let times = row.found.iter().map(|found| share(found == "right"));
-        mean(&times.collect::<Vec<_>>())
-    }),
-    ("Home: reached the goal, % of times", |row| {
-        let times = row
-            .home_over_shortest
-            .iter()
-            .map(|way| share(way.is_some()));
-        mean(&times.collect::<Vec<_>>())
-    }),
-    ("Errands: deliveries, % of an oracle's", |row| {
-        row.oracle_rate
-    }),
+    (
+        "Learn: wrong maps called right, % of worlds",
+        Better::Lower,
+        |row| row.learned(|right| right == Some(false) && row.says.as_deref() == Some("right")),
+    ),
+    (
+        "Locate: told its place rightly, % of times",
+        Better::Higher,
+        |row| row.each_time(row.found.iter().map(|found| found == "right")),
+    ),
+    (
+        "Home: reached the goal, % of times",
+        Better::Higher,
+        |row| row.each_time(row.home_over_shortest.iter().map(Option::is_some)),
+    ),
+    (
+        "Errands: deliveries, % of an oracle's",
+        Better::Higher,
+        |row| row.oracle_rate,
+    ),
 ];
 
 fn mean(values: &[f64]) -> Option<f64> {
@@ -87,6 +88,20 @@ fn share(is_done: bool) -> f64 {
 }
 
 impl Row {
+    /// Returns whether it learned a map that is as asked; `None` for errands, and for a baseline,
+    /// which learns none.
+    fn learned(&self, is_as_asked: impl Fn(Option<bool>) -> bool) -> Option<f64> {
+        let has_learned = self.right.is_some() || self.abstained.is_some();
+        (has_learned && self.oracle_rate.is_none()).then(|| share(is_as_asked(self.right)))
+    }
+
+    /// Returns the share of the times that it was put down and did it. One that abstained did not.
+    fn each_time(&self, done: impl Iterator<Item = bool>) -> Option<f64> {
+        let has_abstained = self.abstained.is_some() && self.oracle_rate.is_none();
+        let times: Vec<f64> = done.map(share).collect();
+        mean(&times).or_else(|| has_abstained.then_some(0.0))
+    }
+
     /// Returns the entrant: rows of one are one row of the page.
     fn entrant(&self) -> String {
         let first = if self.learns_first {
@@ -214,7 +229,7 @@ fn told(entrants: &BTreeMap<String, Vec<&Row>>) -> Vec<String> {
 
 /// Returns the table of a task, the best entrant first; `None` if nobody has done anything of it.
 fn table(
-    (title, done): (&str, Done),
+    (title, better, done): (&str, Better, Done),
     entrants: &BTreeMap<String, Vec<&Row>>,
 ) -> Option<LeagueTable> {
     let of = |rows: &[&Row], column: &str| {
@@ -239,13 +254,11 @@ fn table(
         })
         .filter(|(_, values): &(_, Vec<Option<LeagueValue>>)| values.iter().any(Option::is_some))
         .collect();
-    let overall =
-        |values: &[Option<LeagueValue>]| values.first().copied().flatten().map(|one| one.mean);
-    rows.sort_by(|a, b| {
-        overall(&b.1)
-            .partial_cmp(&overall(&a.1))
-            .unwrap_or(core::cmp::Ordering::Equal)
-    });
+    let overall = |values: &[Option<LeagueValue>]| values[0].map_or(0.0, |one| one.mean);
+    rows.sort_by(|a, b| overall(&a.1).total_cmp(&overall(&b.1)));
+    if better == Better::Higher {
+        rows.reverse();
+    }
     (!rows.is_empty()).then(|| LeagueTable {
         title: title.to_owned(),
         columns: columns.into_iter().map(str::to_owned).collect(),
@@ -261,11 +274,8 @@ const RESAMPLES: u32 = 2000;
 fn value(values: &[f64]) -> Option<LeagueValue> {
     let (mean, count) = (mean(values)?, values.len());
     // What is all done or not at all is a share of worlds.
-    let (none, all) = (|value: &&f64| **value <= 0.0, |value: &&f64| **value >= 1.0);
-    let (undone, done) = (
-        values.iter().filter(none).count(),
-        values.iter().filter(all).count(),
-    );
+    let done = values.iter().filter(|value| **value >= 1.0).count();
+    let undone = values.iter().filter(|value| **value <= 0.0).count();
     let interval = match undone + done == count {
         true => wilson_interval(done as u64, count as u64, 0.95),
         false => {
