@@ -40,8 +40,12 @@ impl Others {
                 if kind.is_dir() {
                     collect(&kind, others, files)?;
                 }
-                // A run takes the file of its number: so few runs are a fair sample, too.
-                files.sort_by_key(|file| run_seed(seed, &file.to_string_lossy(), 0));
+                // A run takes the file of its number: so few runs are a fair sample, too. Where the
+                // data lie does not change the order.
+                files.sort_by_key(|file| {
+                    let name = file.strip_prefix(&folder).unwrap_or(file);
+                    run_seed(seed, &name.to_string_lossy(), 0)
+                });
             }
         }
         Ok(Self(found))
