@@ -105,7 +105,7 @@ fn open(options: &Options) -> Result<Experiment, BoxError> {
     tables.push(records::sizes(SIZE_TABLE).rows(rows::of_sizes(options)));
     tables.push(records::conditions(CONDITIONS_TABLE).rows(rows::of_conditions(options)));
     tables.push(errands::table(&worlds, options));
-    let others = Others::found(options.seed)?;
+    let others = Others::found(options)?;
     tables.push(others::table(&others, options));
     let mut config = toml::Table::new();
     let named = worlds.iter().map(ArenaWorld::config);

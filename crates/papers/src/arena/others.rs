@@ -1,5 +1,6 @@
 //! Table `others`: drawings and floors that others made, from the folder of external data.
 
+use core::slice;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -23,38 +24,50 @@ const KINDS: [(&str, &str, &[&str]); 2] = [
     ("floors", "floors", &["md", "pgm", "png"]),
 ];
 
-/// Worlds of others, by [`KINDS`], in an order that a seed has drawn.
-#[derive(Debug)]
-pub(super) struct Others([Vec<PathBuf>; KINDS.len()]);
+/// Worlds of others.
+#[derive(Debug, Default)]
+pub(super) struct Others {
+    /// Their files by [`KINDS`], in an order that a seed has drawn.
+    files: [Vec<PathBuf>; KINDS.len()],
+    /// Files in which no contest can be held, with the reason.
+    refused: Vec<String>,
+}
 
 impl Others {
-    /// Returns the worlds that are there.
+    /// Returns the worlds that are there, each read once; none if the table is not asked for.
     ///
     /// # Errors
     /// If a folder cannot be read.
-    pub(super) fn found(seed: u64) -> Result<Self, BoxError> {
-        let mut found = KINDS.map(|_| Vec::new());
-        if let Some(folder) = data::folder() {
-            for (files, (_, kind, others)) in found.iter_mut().zip(KINDS) {
+    pub(super) fn found(options: &Options) -> Result<Self, BoxError> {
+        let mut found = Self::default();
+        if let Some(folder) = data::folder().filter(|_| is_named(options)) {
+            for (files, (_, kind, others)) in found.files.iter_mut().zip(KINDS) {
                 let kind = folder.join(kind);
                 if kind.is_dir() {
                     collect(&kind, others, files)?;
                 }
+                files.retain(|file| match ArenaWorld::of_others(slice::from_ref(file)) {
+                    Ok(_) => true,
+                    Err(error) => {
+                        found.refused.push(error.to_string());
+                        false
+                    }
+                });
                 // A run takes the file of its number: so few runs are a fair sample, too. Where the
                 // data lie does not change the order.
                 files.sort_by_key(|file| {
                     let name = file.strip_prefix(&folder).unwrap_or(file);
-                    run_seed(seed, &name.to_string_lossy(), 0)
+                    run_seed(options.seed, &name.to_string_lossy(), 0)
                 });
             }
         }
-        Ok(Self(found))
+        Ok(found)
     }
 
     /// Returns the files of a kind.
     fn of(&self, kind: &str) -> &[PathBuf] {
         let named = KINDS.iter().position(|(name, ..)| *name == kind);
-        named.map_or(&[], |kind| &self.0[kind])
+        named.map_or(&[], |kind| &self.files[kind])
     }
 }
 
@@ -73,30 +86,38 @@ fn collect(folder: &Path, others: &[&str], files: &mut Vec<PathBuf>) -> Result<(
     Ok(())
 }
 
-/// Returns the table. It is filled where it is asked for by name: a run takes up to a minute.
+/// Returns whether the table is asked for by name, and is filled: a run takes up to a minute.
+fn is_named(options: &Options) -> bool {
+    options.tables.iter().any(|name| name == TABLE)
+}
+
+/// Returns the table.
 pub(super) fn table(others: &Others, options: &Options) -> Table {
-    let is_named = options.tables.iter().any(|name| name == TABLE);
     let mut rows = Vec::new();
     for contestant in contestants(ArenaTask::Learn) {
         for (kind, ..) in KINDS {
             let row = Row::new(row_name(contestant, kind));
             rows.push(match others.of(kind).len() as u32 {
+                _ if !is_named(options) => row.runs(0),
                 0 => row.missing(data::missing(&format!("{kind} of others"))),
                 // Each file once, however many runs are asked for.
-                there if is_named => row.runs(runs_of(contestant, options, 1).min(there)),
-                _ => row.runs(0),
+                there => row.runs(runs_of(contestant, options, 1).min(there)),
             });
         }
     }
+    let refused = match others.refused.is_empty() {
+        true => String::new(),
+        false => format!(" Left out: {}.", others.refused.join("; ")),
+    };
     Table::of::<ConditionRun>(TABLE, "In worlds that others drew")
         .metrics_from(ConditionRun::abstained)
         .rows(rows)
-        .note(
+        .note(format!(
             "Each system on its paper's robot. Drawings: files of competitions and generators, of any \
              format, in `mazes`; floors: occupancy grids of ROS in `floors`, both of the folder that \
              TOLMAN_DATA names. Each run has another file, in an order that the seed draws. Systems \
-             that need cells abstain on floors.",
-        )
+             that need cells abstain on floors.{refused}",
+        ))
 }
 
 impl Arena {
