@@ -97,11 +97,10 @@ pub(super) fn table(others: &Others, options: &Options) -> Table {
     for contestant in contestants(ArenaTask::Learn) {
         for (kind, ..) in KINDS {
             let row = Row::new(row_name(contestant, kind));
-            rows.push(match others.of(kind).len() as u32 {
+            rows.push(match others.of(kind).len() {
                 _ if !is_named(options) => row.runs(0),
                 0 => row.missing(data::missing(&format!("{kind} of others"))),
-                // Each file once, however many runs are asked for.
-                there => row.runs(runs_of(contestant, options, 1).min(there)),
+                _ => row.runs(runs_of(contestant, options, 1)),
             });
         }
     }
@@ -115,8 +114,9 @@ pub(super) fn table(others: &Others, options: &Options) -> Table {
         .note(format!(
             "Each system on its paper's robot. Drawings: files of competitions and generators, of any \
              format, in `mazes`; floors: occupancy grids of ROS in `floors`, both of the folder that \
-             TOLMAN_DATA names. Each run has another file, in an order that the seed draws. Systems \
-             that need cells abstain on floors.{refused}",
+             TOLMAN_DATA names. Each run has another file, in an order that the seed draws; where \
+             there are more runs than files, a file comes again with another seed. Systems that need \
+             cells abstain on floors.{refused}",
         ))
 }
 
@@ -127,8 +127,9 @@ impl Arena {
         row: &RowName<'_>,
         run: u32,
     ) -> Result<DrawnWorld, BoxError> {
-        let file = self.others.of(row.world).get(run as usize);
-        let file = file.ok_or("there is no such file")?.clone();
+        let files = self.others.of(row.world);
+        let turn = (run as usize).checked_rem(files.len());
+        let file = files[turn.ok_or("there is no such file")?].clone();
         let world = ArenaWorld::of_others(&[file])?.worlds.into_iter().next();
         world
             .ok_or("there is no world in the file")?
