@@ -289,7 +289,11 @@ pub(crate) fn moved(mut map: MapView, world_from_map: Pose) -> MapView {
     for place in &mut map.places {
         place.position = place.position.map(|at| world_from_map.transform(at));
     }
-    for at in map.ways.iter_mut().flatten().chain(&mut map.floor) {
+    let trail = map.trail.iter_mut().flatten();
+    for at in (map.ways.iter_mut().flatten())
+        .chain(&mut map.floor)
+        .chain(trail)
+    {
         *at = world_from_map.transform(*at);
     }
     map

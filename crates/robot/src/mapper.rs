@@ -136,8 +136,12 @@ pub struct MapView {
     /// Points along each of the links, in their order, m: from the place that it leaves to the one
     /// to which it leads. Empty if the map does not know them.
     pub ways: Vec<Vec<Point>>,
-    /// Points of the floor beside places and ways that the map knows, as in rooms, m.
+    /// Points all over the floor that the map knows, at most 1 m apart, m. It may be empty where
+    /// places and ways have it all, as in corridors.
     pub floor: Vec<Point>,
+    /// Where on the map the robot was at each of the mapper's [`visits`](Mapper::visits), m. Empty
+    /// if the mapper does not keep that.
+    pub trail: Vec<Option<Point>>,
 }
 
 /// A place of a learned map.

@@ -88,6 +88,7 @@ impl ViewFile {
                 .collect(),
             ways,
             floor,
+            trail: Vec::new(),
         };
         let system = system.to_owned();
         Some(Self {

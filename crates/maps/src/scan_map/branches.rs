@@ -12,8 +12,6 @@ pub(super) struct Branches {
     /// Knots by number; numbers of removed knots are missing.
     knots: BTreeMap<usize, Knot>,
     branches: Vec<Branch>,
-    /// Cells of the branches that were removed: the floor of rooms beside the ways.
-    removed: Vec<GridIndex>,
 }
 
 /// Point where lines meet or end.
@@ -119,18 +117,6 @@ impl Branches {
         &self.branches
     }
 
-    /// Returns the cells of removed branches.
-    pub(super) fn removed(&self) -> &[GridIndex] {
-        &self.removed
-    }
-
-    /// Removes the branch at an index and returns its ends.
-    fn remove(&mut self, index: usize) -> [usize; 2] {
-        let Branch { ends, cells, .. } = self.branches.remove(index);
-        self.removed.extend(cells);
-        ends
-    }
-
     /// Removes branches that only lead into corners, the shortest first.
     pub(super) fn prune(&mut self) {
         while let Some(spur) = self.shortest(|graph, degrees, branch| {
@@ -141,7 +127,7 @@ impl Branches {
             let is_spur = degrees[&tip] == 1 && degrees[&root] > 2;
             is_spur && branch.length() < SPUR * graph.knots[&root].clearance
         }) {
-            let ends = self.remove(spur);
+            let Branch { ends, .. } = self.branches.remove(spur);
             let degrees = self.degrees();
             for end in ends {
                 match degrees[&end] {
@@ -200,7 +186,7 @@ impl Branches {
             let are_junctions = degrees[&a] > 2 && degrees[&b] > 2;
             far < apart || (are_junctions && branch.narrowest > open)
         }) {
-            let [a, b] = self.remove(link);
+            let [a, b] = self.branches.remove(link).ends;
             if a == b {
                 if self.degrees()[&a] == 2 {
                     self.dissolve(a);
@@ -377,7 +363,6 @@ mod tests {
         Branches {
             knots: knots.enumerate().collect(),
             branches: [between].into_iter().chain(spurs).collect(),
-            removed: Vec::new(),
         }
     }
 
@@ -438,7 +423,6 @@ mod tests {
         Branches {
             knots: knots.enumerate().collect(),
             branches: [ring].into_iter().chain(spurs).collect(),
-            removed: Vec::new(),
         }
     }
 

@@ -18,7 +18,7 @@ use super::{ScanChart, WallGrid};
 pub struct CorridorMap {
     places: Vec<CorridorPlace>,
     ways: Vec<CorridorWay>,
-    /// Points of rooms beside the ways, m.
+    /// Points of the ground where the robot can stand, m.
     floor: Vec<Point>,
     width: f64,
 }
@@ -82,6 +82,7 @@ impl CorridorMap {
         let grid = chart.ground().grid();
         let stood = chart.places().iter().map(|place| place.position);
         let ground = chart.clearings(&grid).reached(stood);
+        let floor = lattice(&grid, &ground);
         let skeleton = Skeleton::of(&grid, ground);
         let mut branches = Branches::of(&skeleton, chart.radius());
         branches.prune();
@@ -118,7 +119,7 @@ impl CorridorMap {
         Self {
             places: branches.knots().iter().map(place).collect(),
             ways: ways.collect(),
-            floor: points(branches.removed()),
+            floor,
             width,
         }
     }
@@ -191,6 +192,7 @@ impl CorridorMap {
             links: self.ways.iter().flat_map(both_ways).collect(),
             ways: self.ways.iter().flat_map(there_and_back).collect(),
             floor: self.floor.clone(),
+            ..MapView::default()
         }
     }
 }
@@ -202,6 +204,17 @@ const CELLS_TO_A_POINT: usize = 4;
 fn points(cells: &[GridIndex]) -> Vec<Point> {
     let some = cells.iter().copied().step_by(CELLS_TO_A_POINT);
     some.chain(cells.last().copied()).map(middle).collect()
+}
+
+/// Number of cells from one point of the floor to the next.
+const CELLS_BETWEEN: i32 = 10;
+
+/// Returns points all over the cells of a grid that are in `ground`, by slot.
+fn lattice(grid: &WallGrid, ground: &[bool]) -> Vec<Point> {
+    let cells = grid.indices().zip(ground).filter(|(_, ground)| **ground);
+    let on_lattice = |cell: &GridIndex| cell.iter().all(|at| at % CELLS_BETWEEN == 0);
+    let cells = cells.map(|(cell, _)| cell).filter(on_lattice);
+    cells.map(middle).collect()
 }
 
 /// Returns whether the robot stood near a point and sensed no landmark.

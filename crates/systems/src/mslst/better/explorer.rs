@@ -390,7 +390,12 @@ impl Mapper for BetterExplorer {
     }
 
     fn map(&self) -> MapView {
-        self.corridors().view()
+        let mut trail = vec![None; self.forgotten];
+        trail.extend(self.passed.iter().copied().map(Some));
+        MapView {
+            trail,
+            ..self.corridors().view()
+        }
     }
 
     fn belief(&self) -> Vec<Guess> {
