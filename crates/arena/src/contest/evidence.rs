@@ -35,6 +35,9 @@ pub struct Evidence {
     way: Vec<(u16, u16)>,
     /// Mean of the robot's true positions at its visits to each place, m. A visit may be aside.
     founded: Vec<(u32, [f64; 2])>,
+    /// Mean of the positions at which the map has those visits, m; missing where it has not all.
+    #[serde(default)]
+    mapped: Vec<(u32, [f64; 2])>,
 }
 
 impl TrueVisits {
@@ -100,6 +103,8 @@ impl TrueVisits {
         from: usize,
         (squares, spots): (Squares, Spots),
     ) -> Evidence {
+        let trail = visits.iter().copied().zip(map.trail.iter().copied());
+        let trail: Vec<(u32, Point)> = trail.filter_map(|(place, at)| place.zip(at)).collect();
         let named = |points: Vec<Point>| {
             let named = visits.into_iter().zip(points);
             named.filter_map(|(place, at)| Some((place?, at))).collect()
@@ -119,22 +124,30 @@ impl TrueVisits {
         let driven = path.iter().skip(from);
         let mut way: Vec<Cell> = driven.map(|at| squares.cell_at(*at)).collect();
         way.dedup();
-        let mut sums: BTreeMap<u32, (Vector, f64)> = BTreeMap::new();
-        for (place, at) in visits {
-            let (sum, count) = sums.entry(place).or_default();
-            (*sum, *count) = (*sum + at.coords, *count + 1.0);
-        }
-        let founded = sums.into_iter();
-        let founded = founded.map(|(place, (sum, count))| (place, (sum / count).into()));
+        let founded = means(&visits);
+        let has_all = trail.len() == visits.len();
         Evidence {
             stands_for: (stands_for.iter())
                 .map(|(place, cell)| (*place, cell.x, cell.y))
                 .collect(),
             purity,
             way: way.iter().map(|cell| (cell.x, cell.y)).collect(),
-            founded: founded.collect(),
+            founded,
+            mapped: has_all.then(|| means(&trail)).unwrap_or_default(),
         }
     }
+}
+
+/// Returns the mean of the positions at each place, m.
+fn means(visits: &[(u32, Point)]) -> Vec<(u32, [f64; 2])> {
+    let mut sums: BTreeMap<u32, (Vector, f64)> = BTreeMap::new();
+    for (place, at) in visits {
+        let (sum, count) = sums.entry(*place).or_default();
+        (*sum, *count) = (*sum + at.coords, *count + 1.0);
+    }
+    let means = sums.into_iter();
+    let means = means.map(|(place, (sum, count))| (place, (sum / count).into()));
+    means.collect()
 }
 
 /// Limit of the places' error in a right map of a free world, root mean square, m.
@@ -160,6 +173,7 @@ impl Evidence {
     pub fn then(mut self, later: Self) -> Self {
         add_new(&mut self.stands_for, later.stands_for, |(place, ..)| *place);
         add_new(&mut self.founded, later.founded, |(place, _)| *place);
+        add_new(&mut self.mapped, later.mapped, |(place, _)| *place);
         self.way.extend(later.way);
         self.purity = match (self.purity, later.purity) {
             (Some(one), Some(other)) => Some(one.min(other)),
@@ -205,10 +219,20 @@ impl Evidence {
     /// Returns why a map is no chart of a free world, `Some(None)` if it is one, and `None` if its
     /// places have no positions.
     fn complaint_of_chart(&self, map: &MapView, course: &Course) -> Option<Option<String>> {
-        let founded: BTreeMap<u32, Point> = (self.founded.iter())
-            .map(|(place, at)| (*place, Point::from(*at)))
-            .collect();
-        let both = |place: &MapPlace| Some((place.position?, *founded.get(&place.id)?));
+        let points = |means: &[(u32, [f64; 2])]| -> BTreeMap<u32, Point> {
+            let means = means.iter();
+            means
+                .map(|(place, at)| (*place, Point::from(*at)))
+                .collect()
+        };
+        let (founded, mapped) = (points(&self.founded), points(&self.mapped));
+        // A robot may be aside of a place that it visits. Where the map knows how far, that counts.
+        let both = |place: &MapPlace| {
+            let position = place.position?;
+            let visited = mapped.get(&place.id).copied();
+            let visited = visited.filter(|at| (at - position).norm() <= NEAR);
+            Some((visited.unwrap_or(position), *founded.get(&place.id)?))
+        };
         let (places, sites): (Vec<Point>, Vec<Point>) = map.places.iter().filter_map(both).unzip();
         let laid = LaidOver::of_places(places.into_iter(), &sites)?;
         if laid.error_m > MOST_ERROR {
