@@ -337,6 +337,15 @@ pub enum WriteError {
         /// Format to write.
         format: Format,
     },
+    /// The format cannot hold landmarks.
+    #[error(
+        "the format `{format}` cannot hold landmarks: write it as `{}`",
+        Format::Tolman
+    )]
+    Landmarks {
+        /// Format to write.
+        format: Format,
+    },
     /// A name that does not fit one line.
     #[error(
         "the name {name:?} has a line break or another control character: a maze's name is one line \

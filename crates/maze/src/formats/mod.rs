@@ -339,10 +339,13 @@ pub fn write(file: &MazeFile, format: Format) -> Result<String, WriteError> {
     if let Some(side) = error::too_large(grid) {
         return Err(WriteError::TooLarge { side });
     }
-    if !file.unknown.is_empty()
-        && !matches!(format, Format::Mazefiles | Format::Boxes | Format::Tolman)
-    {
-        return Err(WriteError::Unknown { format });
+    if !matches!(format, Format::Mazefiles | Format::Boxes | Format::Tolman) {
+        if !file.unknown.is_empty() {
+            return Err(WriteError::Unknown { format });
+        }
+        if !file.maze.landmarks().is_empty() {
+            return Err(WriteError::Landmarks { format });
+        }
     }
     match format {
         Format::Numbers => numbers::write(&file.maze),

@@ -246,6 +246,14 @@ fn what_a_format_cannot_hold_it_refuses() {
          write it as `tolman`",
     );
     check(
+        |file| {
+            let landmark = [(Cell::new(0, 3), 1)];
+            file.maze.set_landmarks(landmark.into_iter().collect());
+        },
+        Format::Num,
+        "the format `num` cannot hold landmarks: write it as `tolman`",
+    );
+    check(
         |file| file.maze = Maze::open(Grid::new(3, 3)),
         Format::Numbers,
         "the format `numbers` cannot hold a maze of 3 × 3 cells: it needs a square of even size; \
