@@ -15,6 +15,13 @@ STAR = ROOT / "mazes" / "star.maze"
 needs_command = pytest.mark.skipif(not Path(COMMAND).exists(), reason="TOLMAN names no command")
 
 
+def row_of(role, program):
+    """Return the row of a program in the star."""
+    command = [COMMAND, "arena", STAR, role, f"{sys.executable} {RIVALS}/{program}", "--json"]
+    rows = subprocess.run([*command, "--time-limit", "600"], check=True, stdout=subprocess.PIPE).stdout
+    return json.loads(rows)
+
+
 @needs_command
 @pytest.mark.parametrize(
     "role, program, knows",
@@ -26,13 +33,20 @@ needs_command = pytest.mark.skipif(not Path(COMMAND).exists(), reason="TOLMAN na
     ],
 )
 def test_a_rival_is_judged(role, program, knows):
-    command = [COMMAND, "arena", STAR, role, f"{sys.executable} {RIVALS}/{program}", "--worlds", "1", "--json"]
-    rows = subprocess.run([*command, "--time-limit", "600"], check=True, stdout=subprocess.PIPE).stdout
-    row = json.loads(rows)
+    row = row_of(role, program)
     assert row["abstained"] is None and row["purity"] > 0.5
     # It answered what it was asked. Whether the driver's walk shows where it is, is not its own.
     assert row["why"] in (None, "it does not say where it is")
     assert row["right"] or knows is None
+
+
+@needs_command
+def test_homing_moves_from_cell_to_cell_until_its_time_is_up():
+    pytest.importorskip("aalpy")
+    row = row_of("--brain", "homing_brain.py")
+    # It would need some fifty times the moves.
+    assert row["why"] == "it was still looking when its time was up"
+    assert row["metres_over_corridors"] > 9 and row["says"] != "right"
 
 
 def test_homing_and_the_bump_map_learn_a_maze(monkeypatch, capsys):

@@ -266,3 +266,60 @@ fn add_new<T>(all: &mut Vec<T>, later: Vec<T>, place: fn(&T) -> u32) {
     let new = later.into_iter();
     all.extend(new.filter(|one| !known.contains(&place(one))));
 }
+
+#[cfg(test)]
+mod tests {
+    use tolman_robot::Body;
+    use tolman_sim::World;
+
+    use super::*;
+
+    /// Returns a hall of 2 × 2 m with a destination.
+    fn hall() -> Course {
+        let text = r#"{"format": "tolman-world", "version": 1,
+            "polylines": [{"points": [[0, 0], [2, 0], [2, 2], [0, 2]], "closed": true}],
+            "zones": [{"name": "destination",
+                       "areas": [{"disc": {"centre": [1, 1], "radius": 0.2}}]}]}"#;
+        let body = Body::Circle { radius: 0.1 };
+        Course::in_free_world("hall", World::from_json(text).unwrap(), 0.5, &body).unwrap()
+    }
+
+    #[test]
+    fn a_place_that_was_visited_in_passing_lies_where_the_map_has_it() {
+        let course = hall();
+        // The robot was 0.4 m aside of each place, to the west and to the east in turn.
+        let places = [[0.5, 0.5], [1.5, 0.5], [1.5, 1.5], [0.5, 1.5]];
+        let aside = |[x, y]: [f64; 2], id: u32| [x + if id % 2 == 0 { 0.4 } else { -0.4 }, y];
+        let numbered = || (0..).zip(places);
+        let map = MapView {
+            places: numbered()
+                .map(|(id, at)| MapPlace {
+                    id,
+                    position: Some(at.into()),
+                    landmark: None,
+                })
+                .collect(),
+            ..MapView::default()
+        };
+        let visits: Vec<(u32, [f64; 2])> = numbered().map(|(id, at)| (id, aside(at, id))).collect();
+        let known = Evidence {
+            founded: visits.clone(),
+            mapped: visits,
+            ..Evidence::default()
+        };
+        assert!(known.is_chart(&map, &course));
+        let unknown = Evidence {
+            mapped: Vec::new(),
+            ..known.clone()
+        };
+        let complaint = unknown.complaint_of_chart(&map, &course).unwrap().unwrap();
+        assert!(complaint.contains("0.4 m"), "{complaint}");
+        // What the map has far from the place was no visit of it.
+        let far = (known.mapped.iter()).map(|(id, [x, y])| (*id, [x + 2.0, *y]));
+        let far = Evidence {
+            mapped: far.collect(),
+            ..known.clone()
+        };
+        assert!(!far.is_chart(&map, &course));
+    }
+}

@@ -51,15 +51,16 @@ Examples:
   tolman arena --league .")]
 pub(super) struct Arguments {
     /// Files of mazes in any format and of worlds of free walls (.json, or the .yaml of a ROS map),
-    /// or folders of them, to use instead of the families
+    /// or folders of them, each to use once, instead of the families or beside those of --family
     #[arg(value_name = "MAZE")]
     mazes: Vec<PathBuf>,
     /// The same as MAZE
     #[arg(long = "maze", value_name = "FILE|DIR")]
     maze_files: Vec<PathBuf>,
-    /// System to send, or `all`; by default all, unless a program is given
+    /// System to send, or `all`; by default all, unless a program is given. May be given several
+    /// times
     #[arg(long, value_name = "NAME")]
-    system: Option<String>,
+    system: Vec<String>,
     #[command(flatten)]
     programs: Programs,
     /// Robot that carries the systems, or `own` for the one that each is made for
@@ -72,14 +73,10 @@ pub(super) struct Arguments {
     /// landmark to landmark with an empty map
     #[arg(long, value_enum, default_value_t)]
     task: ArenaTask,
-    /// Family of worlds, or `all`
-    #[arg(
-        long,
-        value_name = "NAME",
-        default_value = "all",
-        conflicts_with_all = ["mazes", "maze_files"]
-    )]
-    family: String,
+    /// Family of worlds, or `all`; by default all, unless a MAZE is given. May be given several
+    /// times
+    #[arg(long, value_name = "NAME")]
+    family: Vec<String>,
     /// Number of worlds of each family, small and middle sizes in turn; with --own-verdict the
     /// maximum, by default 40 [default: 2]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
@@ -127,6 +124,8 @@ enum ArenaTask {
     Errands,
 }
 
+/// Name for all systems, and for all families.
+const ALL: &str = "all";
 /// Default number of worlds of each family; the second is the maximum with `--own-verdict`.
 const WORLDS: u32 = 2;
 const MOST_WORLDS: u32 = 40;
@@ -311,7 +310,7 @@ fn costs(rows: &[TableRow<'_>], out: &mut dyn Write) -> io::Result<()> {
 }
 
 fn contestants(app: &App, name: &str) -> Result<Vec<Contestant>> {
-    if name == "all" {
+    if name == ALL {
         return Ok(app.registry().contestants().collect());
     }
     let competes = |system: &dyn SystemEntry| system.learns() || system.baseline().is_some();
@@ -342,10 +341,11 @@ impl Arguments {
     /// Returns the programs, then the systems of `--system`.
     fn contestants(&self, app: &App) -> Result<Vec<Contestant>> {
         let mut all = self.programs.contestants()?;
-        match &self.system {
-            Some(name) => all.extend(contestants(app, name)?),
-            None if self.programs.any() => {}
-            None => all.extend(contestants(app, "all")?),
+        for name in &self.system {
+            all.extend(contestants(app, name)?);
+        }
+        if all.is_empty() {
+            all = contestants(app, ALL)?;
         }
         Ok(all)
     }
@@ -363,36 +363,23 @@ impl Arguments {
         }
     }
 
+    /// Returns the worlds of files, then those of `--family`.
     fn kinds(&self, app: &App) -> Result<Vec<ArenaWorld>> {
         let paths = [self.mazes.as_slice(), &self.maze_files].concat();
-        Ok(match (paths.is_empty(), self.family.as_str()) {
-            (false, _) => {
-                let others = ArenaWorld::of_others(&paths).unboxed().or_bad_input()?;
-                for refused in others.refused {
-                    note(&told(&Error::from_boxed(refused)));
-                }
-                for world in &others.worlds {
-                    if let ArenaWorld::File {
-                        name,
-                        width: Some(width),
-                        ..
-                    } = world
-                    {
-                        note(&format!(
-                            "corridor_width = {width} of {name} is ignored: each robot gets corridors of its own width"
-                        ));
-                    }
-                }
-                if others.worlds.is_empty() {
-                    return Err(Failure::BadInput(anyhow!(
-                        "there is no maze and no world in what was named: give their files"
-                    )));
-                }
-                others.worlds
+        let mut kinds = match paths.is_empty() {
+            true => Vec::new(),
+            false => of_others(&paths)?,
+        };
+        for name in &self.family {
+            match name.as_str() {
+                ALL => kinds.extend(ArenaWorld::families()),
+                name => kinds.push(ArenaWorld::Family(*app.family(name)?)),
             }
-            (true, "all") => ArenaWorld::families(),
-            (true, name) => vec![ArenaWorld::Family(*app.family(name)?)],
-        })
+        }
+        if kinds.is_empty() {
+            kinds = ArenaWorld::families();
+        }
+        Ok(kinds)
     }
 
     fn worlds(&self, app: &App) -> Result<Vec<DrawnWorld>> {
@@ -408,12 +395,12 @@ impl Arguments {
                 self.condition
             )));
         }
-        let count = match self.mazes.is_empty() && self.maze_files.is_empty() {
-            true => self.worlds.unwrap_or(WORLDS),
-            false => 1,
-        };
         let mut worlds = Vec::new();
         for kind in &kinds {
+            let count = match kind {
+                ArenaWorld::Family(_) => self.worlds.unwrap_or(WORLDS),
+                ArenaWorld::File { .. } | ArenaWorld::Floor { .. } => 1,
+            };
             for number in 0..count {
                 let drawn = match (kind.draw(self.seed, number).unboxed(), kind) {
                     (Ok(drawn), _) => drawn,
@@ -435,6 +422,32 @@ impl Arguments {
             false => Ok(worlds),
         }
     }
+}
+
+/// Returns the worlds of files, and tells which files are none.
+fn of_others(paths: &[PathBuf]) -> Result<Vec<ArenaWorld>> {
+    let others = ArenaWorld::of_others(paths).unboxed().or_bad_input()?;
+    for refused in others.refused {
+        note(&told(&Error::from_boxed(refused)));
+    }
+    for world in &others.worlds {
+        if let ArenaWorld::File {
+            name,
+            width: Some(width),
+            ..
+        } = world
+        {
+            note(&format!(
+                "corridor_width = {width} of {name} is ignored: each robot gets corridors of its own width"
+            ));
+        }
+    }
+    if others.worlds.is_empty() {
+        return Err(Failure::BadInput(anyhow!(
+            "there is no maze and no world in what was named: give their files"
+        )));
+    }
+    Ok(others.worlds)
 }
 
 /// Returns the robot that carries a contestant. Baselines drive the laser Pioneer.

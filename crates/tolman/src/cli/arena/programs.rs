@@ -32,11 +32,6 @@ pub(super) struct Programs {
 const LINE_BYTES: u64 = 1 << 20;
 
 impl Programs {
-    /// Returns whether a program is given.
-    pub(super) const fn any(&self) -> bool {
-        !self.mapper.is_empty() || !self.brain.is_empty()
-    }
-
     /// Returns the contestants, mappers first.
     pub(super) fn contestants(&self) -> Result<Vec<Contestant>> {
         let mappers = self.mapper.iter().map(|command| (command, Role::Mapper));
