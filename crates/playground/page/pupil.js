@@ -59,9 +59,9 @@ function openLessons(module, theme) {
     part("free").hidden = Boolean(at);
     part("lesson").hidden = !at;
     drawPages();
+    document.title = at ? LESSONS[at.lesson - 1].title + " – tolman" : "tolman: a playground";
     if (!at) return;
     const { title, why, tasks } = LESSONS[at.lesson - 1];
-    document.title = title + " – tolman";
     part("lesson-title").textContent = at.lesson + ". " + title;
     part("why").textContent = why;
     part("task-number").textContent = tasks.length > 1 ? `Task ${at.task} of ${tasks.length}` : "Task";
@@ -71,7 +71,7 @@ function openLessons(module, theme) {
     part("moves").hidden = !words.moves;
     part("board").dataset.tool = words.walls ? "wall" : words.cells ? "cell" : "none";
     part("hint").hidden = true;
-    part("back-move").hidden = Boolean(words.drives);
+    part("back-move").hidden = !words.moves || Boolean(words.drives);
     part("again").textContent = words.drives ? "Put it down elsewhere" : "Start again";
     part("again").hidden = Boolean(words.rule);
     if (words.moves) drawKeys(words.moves === "robot" ? SIDES : COMPASS);
@@ -83,7 +83,6 @@ function openLessons(module, theme) {
     closeFilm();
     at.answer = { rule: ["north", "north", "north", "north"], walls: [], cells: [], moves: [], seed: seed() };
     for (const select of document.querySelectorAll("#rule select")) select.value = "north";
-    at.view = null;
     at.way = [];
     tell("");
     look();
@@ -92,11 +91,7 @@ function openLessons(module, theme) {
   // Shows the task after another answer.
   function look() {
     closeFilm();
-    const before = at.view, movesOf = view => view.facts.find(([name]) => name === "moves")?.[1];
     at.view = JSON.parse(module.task_view(at.lesson, at.task, JSON.stringify(at.answer)));
-    if (at.words.drives && before && at.answer.moves.length && movesOf(before) === movesOf(at.view)) {
-      tell("A wall is behind the robot. It did not move.");
-    }
     draw();
   }
 
@@ -205,7 +200,11 @@ function openLessons(module, theme) {
       button.type = "button";
       button.textContent = words;
       button.dataset.move = side;
-      button.addEventListener("click", () => change(({ moves }) => moves.push(side)));
+      button.addEventListener("click", () => change(answer => {
+        answer.moves.push(side);
+        // The cell in which the robot was believed to be is left.
+        answer.cells = [];
+      }));
       return button;
     }));
   }
@@ -268,7 +267,6 @@ function openLessons(module, theme) {
     part("hint-words").textContent = at.words.hint;
     part("more").textContent = at.words.more;
     const isLast = at.task === LESSONS[at.lesson - 1].tasks.length;
-    part("next").hidden = !mark.passed;
     part("next").textContent = !isLast ? "Next task" : at.lesson < LESSONS.length ? "Next lesson" : "To the playground";
     part("next").href = !isLast ? `#lesson-${at.lesson}-${at.task + 1}` : at.lesson < LESSONS.length ? "#lesson-" + (at.lesson + 1) : "#play";
     tell(mark.told, mark.passed ? "good" : "bad");

@@ -65,22 +65,24 @@ fn mark_alike(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError>
     let look = |cell: Cell| SIGHT.look(maze, cell);
     let alike = |cell: &Cell| *cell != a && look(*cell) == look(a);
     let all: Vec<Cell> = maze.grid().cells().filter(alike).collect();
-    let right = all
-        .iter()
-        .filter(|cell| answer.cells.contains(cell))
-        .count();
-    let wrong = answer.cells.iter().filter(|cell| !alike(cell)).count();
-    if wrong > 0 || right < all.len() {
-        let told = match (wrong, all.len() - right) {
-            (0, _) => "Each place that you chose looks like A, but there are more.".to_owned(),
-            (wrong, 0) => format!(
-                "All places that look like A are among yours, but {} of yours do not.",
-                wrong
-            ),
-            (wrong, _) => {
-                format!("{wrong} of your places do not look like A, and some that do are missing.")
-            }
-        };
+    let is_missing = all.iter().any(|cell| !answer.cells.contains(cell));
+    // Whoever clicks on A itself is not wrong.
+    let wrong = answer.cells.iter().filter(|cell| look(**cell) != look(a));
+    let wrong = wrong.count();
+    let do_not = if wrong == 1 { "does not" } else { "do not" };
+    let told = match (wrong, is_missing) {
+        (0, false) => None,
+        (0, true) => Some("What you chose looks like A, but there is more.".to_owned()),
+        (_, false) => Some(format!(
+            "All that looks like A is chosen, and also {} that {do_not}.",
+            count(wrong, "place")
+        )),
+        (_, true) => Some(format!(
+            "{} of those that you chose {do_not} look like A, and something is missing.",
+            count(wrong, "place")
+        )),
+    };
+    if let Some(told) = told {
         return Ok(Mark::new(false, told));
     }
     let mut looks: Vec<u32> = maze.grid().cells().map(look).collect();

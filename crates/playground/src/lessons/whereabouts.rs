@@ -67,6 +67,8 @@ struct Lost<'a> {
     poses: Vec<Pose>,
     possible: PoseSet<SIDE>,
     beliefs: Vec<Vec<Pose>>,
+    /// Whether the last move was against a wall.
+    has_bumped: bool,
 }
 
 impl<'a> Lost<'a> {
@@ -76,6 +78,7 @@ impl<'a> Lost<'a> {
             poses: vec![pose],
             possible,
             beliefs: Vec::new(),
+            has_bumped: false,
         };
         lost.look();
         lost
@@ -96,14 +99,17 @@ impl<'a> Lost<'a> {
     /// Turns to a side and drives one cell. Against a wall the robot stays as it is.
     fn go(&mut self, side: Direction) {
         let (cell, heading) = self.pose();
-        let heading = heading.turned(side);
-        if let Some(next) = self.maze.beside(cell, heading) {
+        let turned = heading.turned(side);
+        let next = self.maze.beside(cell, turned);
+        self.has_bumped = next.is_none();
+        if let Some(next) = next {
             self.possible.drive(self.maze, side);
-            self.poses.push((next, heading));
-            self.look();
+            self.poses.push((next, turned));
         } else {
             self.possible.see(self.maze, side, false);
+            self.poses.push((cell, heading));
         }
+        self.look();
     }
 
     fn is_found(&self) -> bool {
@@ -148,6 +154,10 @@ fn view_lost(sketch: &Sketch, answer: &Answer) -> Result<TaskView, PlaygroundErr
     let mut view = bare(sketch);
     view.sight = Some(sight(sketch.maze(), lost.pose()));
     view.facts = vec![("moves", (lost.poses.len() - 1).to_string())];
+    if lost.has_bumped {
+        let stayed = "against a wall: the robot did not move";
+        view.facts.push(("last move", stayed.to_owned()));
+    }
     Ok(view)
 }
 
@@ -184,7 +194,7 @@ fn mark_lost(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError> 
         "There it is, after {}: this is the only cell left. A micromouse with this map needs {} \
          from there. Watch the possible places vanish.",
         count(lost.poses.len() - 1, "move"),
-        mouse.poses.len() - 1
+        count(mouse.poses.len() - 1, "move")
     );
     let track = CellTrack {
         name: "robot".to_owned(),
