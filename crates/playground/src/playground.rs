@@ -3,7 +3,6 @@ use thiserror::Error;
 use tolman_arena::BoxError;
 use tolman_arena::contest::{Condition, Contest, ContestError, SteppedContest};
 use tolman_arena::course::CourseError;
-use tolman_arena::episode::EpisodeError;
 use tolman_arena::registry::{Registry, Schooling, SystemEntry};
 use tolman_maze::{GenerateError, MazeError};
 use tolman_replay::EncodeError;
@@ -58,9 +57,9 @@ pub enum PlaygroundError {
     /// A lesson's robot cannot run in the maze.
     #[error("no robot can be sent into this maze: {0}")]
     Course(#[from] CourseError),
-    /// A lesson's robot cannot go on.
-    #[error("the robot cannot go on: {0}")]
-    Episode(#[from] EpisodeError),
+    /// A lesson's robot cannot be made, or cannot go on.
+    #[error("the robot cannot drive here: {0}")]
+    Robot(#[source] BoxError),
     /// A lesson's maze cannot be drawn.
     #[error("the maze cannot be drawn: {0}")]
     Drawing(#[from] GenerateError),

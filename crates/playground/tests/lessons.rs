@@ -5,7 +5,7 @@
 use std::collections::BTreeSet;
 
 use tolman_maze::{Cell, Direction};
-use tolman_playground::lessons::{Answer, Mark, mark, task_counts, view};
+use tolman_playground::lessons::{Answer, LessonMark, mark, task_counts, view};
 use tolman_playground::{PlaygroundError, SketchPlan};
 
 use Direction::{East, North, South, West};
@@ -16,11 +16,11 @@ fn cells(places: &[(u16, u16)]) -> Vec<Cell> {
     places.iter().map(|(x, y)| Cell::new(*x, *y)).collect()
 }
 
-fn marked(lesson: usize, task: usize, answer: &Answer) -> Mark {
+fn marked(lesson: usize, task: usize, answer: &Answer) -> LessonMark {
     mark(lesson, task, answer).unwrap()
 }
 
-fn ruled(rule: &[Direction], seed: u32) -> Mark {
+fn ruled(rule: &[Direction], seed: u32) -> LessonMark {
     let rule = rule.to_vec();
     let answer = Answer {
         rule,
@@ -266,7 +266,7 @@ fn a_run_is_proven_at_one_moment() {
         };
         let mark = marked(5, 1, &answer);
         assert_eq!(mark.passed, entered == 16, "{entered}: {}", mark.told);
-        // Whoever says it too soon sees the run that may still exist.
+        // An answer that comes too soon is shown the run that may still exist.
         assert_eq!(mark.way.len() > 1, entered < 16, "{entered}");
         let seen = view(5, 1, &answer).unwrap();
         assert!(!seen.unknown.is_empty());

@@ -4,7 +4,7 @@ use tolman_maze::Direction;
 
 use super::edits::Edited;
 use super::rule_run::{RuleEnd, run};
-use super::{Answer, Mark, Task, TaskView};
+use super::{Answer, LessonMark, Task, TaskView};
 use crate::session::count;
 use crate::{PlaygroundError, Sketch};
 
@@ -61,21 +61,21 @@ fn view(sketch: &Sketch, answer: &Answer) -> Result<TaskView, PlaygroundError> {
     Ok(TaskView::of(&Edited::new(sketch, answer).sketch))
 }
 
-fn break_it(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError> {
+fn break_it(sketch: &Sketch, answer: &Answer) -> Result<LessonMark, PlaygroundError> {
     let edited = Edited::new(sketch, answer);
     if (edited.removed, edited.built) != (1, 0) {
         return Ok(refused(&edited, "Remove exactly one wall and build none"));
     }
     let run = run(edited.sketch.maze(), &RIGHT_HAND)?;
     let mark = match run.end {
-        RuleEnd::Arrived => Mark::new(
+        RuleEnd::Arrived => LessonMark::new(
             false,
             format!(
                 "It still arrives, after {}. Watch which walls its right hand touches.",
                 count(run.cells, "cell")
             ),
         ),
-        RuleEnd::Circles | RuleEnd::Stuck => Mark::new(
+        RuleEnd::Circles | RuleEnd::Stuck => LessonMark::new(
             true,
             "It goes round and round and never arrives, although a way to the goal is open. The \
              walls around the goal are now an island: no wall joins them to those on its right.",
@@ -84,18 +84,18 @@ fn break_it(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError> {
     Ok(mark.showing(run.replay))
 }
 
-fn repair_it(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError> {
+fn repair_it(sketch: &Sketch, answer: &Answer) -> Result<LessonMark, PlaygroundError> {
     let edited = Edited::new(sketch, answer);
     if (edited.removed, edited.built) != (0, 1) {
         return Ok(refused(&edited, "Build exactly one wall and remove none"));
     }
     if edited.sketch.fault().is_some() {
         let told = "Nobody can reach the goal now: your wall closes the last way to it.";
-        return Ok(Mark::new(false, told));
+        return Ok(LessonMark::new(false, told));
     }
     let run = run(edited.sketch.maze(), &RIGHT_HAND)?;
     let mark = match run.end {
-        RuleEnd::Arrived => Mark::new(
+        RuleEnd::Arrived => LessonMark::new(
             true,
             format!(
                 "It arrives, after {}. Your wall joins the island to the other walls, so its hand \
@@ -103,7 +103,7 @@ fn repair_it(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError> 
                 count(run.cells, "cell")
             ),
         ),
-        RuleEnd::Circles | RuleEnd::Stuck => Mark::new(
+        RuleEnd::Circles | RuleEnd::Stuck => LessonMark::new(
             false,
             "It still goes round and round. Watch which walls its right hand never touches.",
         ),
@@ -112,11 +112,11 @@ fn repair_it(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError> 
 }
 
 /// Returns the mark of a maze with other changes than those that are asked for.
-fn refused(edited: &Edited, wanted: &str) -> Mark {
+fn refused(edited: &Edited, wanted: &str) -> LessonMark {
     let told = format!(
         "{wanted}. You removed {} and built {}.",
         count(edited.removed, "wall"),
         edited.built
     );
-    Mark::new(false, told)
+    LessonMark::new(false, told)
 }

@@ -4,7 +4,7 @@ use tolman_arena::bump_walk::{BumpSight, BumpWalk};
 use tolman_maze::{Cell, Direction, Maze};
 
 use super::cell_film::{CellTrack, film};
-use super::{Answer, Mark, Task, TaskView};
+use super::{Answer, LessonMark, Task, TaskView};
 use crate::session::count;
 use crate::{PlaygroundError, Sketch};
 
@@ -59,14 +59,14 @@ fn view(sketch: &Sketch, letters: &[&str]) -> Result<TaskView, PlaygroundError> 
     Ok(view)
 }
 
-fn mark_alike(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError> {
+fn mark_alike(sketch: &Sketch, answer: &Answer) -> Result<LessonMark, PlaygroundError> {
     let maze = sketch.maze();
     let [a, _] = places(maze);
     let look = |cell: Cell| SIGHT.look(maze, cell);
     let alike = |cell: &Cell| *cell != a && look(*cell) == look(a);
     let all: Vec<Cell> = maze.grid().cells().filter(alike).collect();
     let is_missing = all.iter().any(|cell| !answer.cells.contains(cell));
-    // Whoever clicks on A itself is not wrong.
+    // A click on A itself is not wrong.
     let wrong = answer.cells.iter().filter(|cell| look(**cell) != look(a));
     let wrong = wrong.count();
     let do_not = if wrong == 1 { "does not" } else { "do not" };
@@ -83,7 +83,7 @@ fn mark_alike(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError>
         )),
     };
     if let Some(told) = told {
-        return Ok(Mark::new(false, told));
+        return Ok(LessonMark::new(false, told));
     }
     let mut looks: Vec<u32> = maze.grid().cells().map(look).collect();
     looks.sort_unstable();
@@ -95,7 +95,7 @@ fn mark_alike(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError>
         maze.grid().cell_count(),
         looks.len()
     );
-    Ok(Mark::new(true, told))
+    Ok(LessonMark::new(true, told))
 }
 
 /// Returns the cells of a walk, the first included. A move against a wall stays.
@@ -136,7 +136,7 @@ fn fewest_moves(maze: &Maze, places: [Cell; 2]) -> Option<usize> {
     None
 }
 
-fn mark_walk(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError> {
+fn mark_walk(sketch: &Sketch, answer: &Answer) -> Result<LessonMark, PlaygroundError> {
     let maze = sketch.maze();
     let places = places(maze);
     let moves = &answer.moves[..answer.moves.len().min(MOST_MOVES)];
@@ -154,7 +154,7 @@ fn mark_walk(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError> 
             "After {} everything still looks the same from A as from B. Watch both robots.",
             count(moves.len(), "move")
         );
-        return Ok(Mark::new(false, told).showing(replay));
+        return Ok(LessonMark::new(false, told).showing(replay));
     };
     let fewest = fewest_moves(maze, places);
     if fewest.is_some_and(|fewest| fewest < moves.len()) {
@@ -162,7 +162,7 @@ fn mark_walk(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError> 
             "This tells A from B after {}, but there is a shorter walk.",
             count(after, "move")
         );
-        return Ok(Mark::new(false, told).showing(replay));
+        return Ok(LessonMark::new(false, told).showing(replay));
     }
     let mut learner = BumpWalk::new(maze, places[0], SIGHT);
     let mut learned = 0;
@@ -183,5 +183,5 @@ fn mark_walk(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError> 
             false => "it is not yet right",
         }
     );
-    Ok(Mark::new(true, told).showing(replay))
+    Ok(LessonMark::new(true, told).showing(replay))
 }

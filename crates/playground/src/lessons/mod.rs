@@ -9,7 +9,6 @@ mod edits;
 mod islands;
 mod look_alikes;
 mod proof;
-mod rule;
 mod rule_run;
 mod wall_follower;
 mod whereabouts;
@@ -18,8 +17,6 @@ use serde::{Deserialize, Serialize};
 use tolman_maze::{Cell, Direction, Maze};
 
 use crate::{PlaygroundError, Sketch, SketchPlan};
-
-pub use rule::RuleBrain;
 
 /// A pupil's answer to a task. Each task uses some of the fields and ignores the others.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
@@ -67,7 +64,7 @@ impl TaskView {
 
 /// Result of an answer.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Mark {
+pub struct LessonMark {
     /// Whether the answer is right.
     pub passed: bool,
     /// What happened, in a few sentences.
@@ -78,7 +75,7 @@ pub struct Mark {
     pub way: Vec<Cell>,
 }
 
-impl Mark {
+impl LessonMark {
     fn new(passed: bool, told: impl Into<String>) -> Self {
         Self {
             passed,
@@ -100,7 +97,7 @@ impl Mark {
 struct Task {
     maze: &'static str,
     view: fn(&Sketch, &Answer) -> Result<TaskView, PlaygroundError>,
-    mark: fn(&Sketch, &Answer) -> Result<Mark, PlaygroundError>,
+    mark: fn(&Sketch, &Answer) -> Result<LessonMark, PlaygroundError>,
 }
 
 /// Tasks of each lesson, in the order of the lessons.
@@ -139,7 +136,7 @@ pub fn view(lesson: usize, number: usize, answer: &Answer) -> Result<TaskView, P
 ///
 /// # Errors
 /// [`PlaygroundError`] if there is no such task, or a robot cannot run in the pupil's maze.
-pub fn mark(lesson: usize, number: usize, answer: &Answer) -> Result<Mark, PlaygroundError> {
+pub fn mark(lesson: usize, number: usize, answer: &Answer) -> Result<LessonMark, PlaygroundError> {
     let (task, sketch) = task(lesson, number)?;
     (task.mark)(&sketch, answer)
 }

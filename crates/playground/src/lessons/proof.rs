@@ -7,7 +7,7 @@ use tolman_maze::{Cell, Direction, Grid, Knowledge, Maze, Walls};
 use tolman_systems::planners::{Passages, StepMap, Unknown};
 
 use super::cell_film::{CellTrack, film};
-use super::{Answer, Mark, Task, TaskView, start_of};
+use super::{Answer, LessonMark, Task, TaskView, start_of};
 use crate::session::count;
 use crate::{PlaygroundError, Sketch};
 
@@ -122,7 +122,7 @@ impl Runs {
     }
 
     /// Returns the mark of an answer that proves nothing yet.
-    fn unproven(self) -> Mark {
+    fn unproven(self) -> LessonMark {
         let told = match (moves(self.sure.as_ref()), moves(self.hoped.as_ref())) {
             (None, _) => "No way to the goal is known yet.".to_owned(),
             (Some(sure), hoped) => format!(
@@ -132,9 +132,9 @@ impl Runs {
                 hoped.unwrap_or_default()
             ),
         };
-        Mark {
+        LessonMark {
             way: self.hoped.unwrap_or_default(),
-            ..Mark::new(false, told)
+            ..LessonMark::new(false, told)
         }
     }
 }
@@ -189,7 +189,7 @@ fn view_exploring(sketch: &Sketch, answer: &Answer) -> Result<TaskView, Playgrou
     Ok(view)
 }
 
-/// Returns the heading of a mouse in each cell of a way: that in which it entered.
+/// Returns the heading with which a mouse entered each cell of a way.
 fn headings(way: &[Cell]) -> Vec<Direction> {
     let entered = way.windows(2).map(|pair| {
         let mut sides = Direction::ALL.into_iter();
@@ -202,7 +202,7 @@ fn headings(way: &[Cell]) -> Vec<Direction> {
     core::iter::once(first).chain(entered).collect()
 }
 
-fn mark_exploring(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError> {
+fn mark_exploring(sketch: &Sketch, answer: &Answer) -> Result<LessonMark, PlaygroundError> {
     let maze = sketch.maze();
     let entered = entered(maze, answer);
     let runs = Seen::new(maze, entered.iter().copied()).runs()?;
@@ -222,7 +222,7 @@ fn mark_exploring(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundEr
             "It is proven, but it already was {} ago. Explore again, and say so at once.",
             count(late, "move")
         );
-        return Ok(Mark::new(false, told));
+        return Ok(LessonMark::new(false, told));
     }
     let run = runs.sure.unwrap_or_default();
     let cells: BTreeSet<Cell> = entered.iter().copied().collect();
@@ -241,7 +241,7 @@ fn mark_exploring(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundEr
         maze,
         &[CellTrack::new("mouse", poses)],
     )?;
-    Ok(Mark::new(true, told).showing(replay))
+    Ok(LessonMark::new(true, told).showing(replay))
 }
 
 fn zipped(way: &[Cell]) -> Vec<(Cell, Direction)> {
@@ -285,7 +285,7 @@ fn view_proof(sketch: &Sketch, answer: &Answer) -> Result<TaskView, PlaygroundEr
     Ok(view)
 }
 
-fn mark_proof(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError> {
+fn mark_proof(sketch: &Sketch, answer: &Answer) -> Result<LessonMark, PlaygroundError> {
     let maze = sketch.maze();
     let chosen = Seen::new(maze, answer.cells.iter().copied());
     let runs = chosen.runs()?;
@@ -305,9 +305,9 @@ fn mark_proof(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError>
             "Proven, but you looked at more than you need: {} could be left out. One is marked.",
             count(needless.len(), "cell")
         );
-        return Ok(Mark {
+        return Ok(LessonMark {
             way: vec![*cell],
-            ..Mark::new(false, told)
+            ..LessonMark::new(false, told)
         });
     }
     let told = format!(
@@ -315,5 +315,5 @@ fn mark_proof(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError>
         count(chosen.cells.len(), "cell"),
         maze.grid().cell_count() - chosen.cells.len()
     );
-    Ok(Mark::new(true, told))
+    Ok(LessonMark::new(true, told))
 }

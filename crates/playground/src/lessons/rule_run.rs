@@ -1,19 +1,21 @@
-//! Sends a robot with a rule through a maze.
+//! Sends a robot with a rule through a maze, from cell to cell in the simulator.
 
 use alloc::collections::BTreeMap;
-use core::ops::ControlFlow;
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use tolman_arena::Mind;
+use tolman_arena::BoxError;
 use tolman_arena::course::Course;
-use tolman_arena::episode::{Trial, run_while};
 use tolman_arena::pioneer::{CORRIDOR_WIDTH, calibrated, without_noise};
-use tolman_film::Recorder;
+use tolman_film::scenery_of;
 use tolman_geom::Pose;
 use tolman_maze::{Cell, Direction, Maze};
-use tolman_replay::json;
+use tolman_replay::robot::{Body, Robot, Scan, TurnTranslate};
+use tolman_replay::sim::Solo;
+use tolman_replay::sim::robots::{LaserPioneer, LaserPioneerConfig};
+use tolman_replay::{Notes, Replay, RobotTrack, json};
 use tolman_systems::control::heading_of;
 
-use super::{RuleBrain, start_of};
+use super::start_of;
 use crate::PlaygroundError;
 
 /// How a run by a rule ended.
@@ -21,9 +23,9 @@ use crate::PlaygroundError;
 pub(super) enum RuleEnd {
     /// The robot came to the goal.
     Arrived,
-    /// It came to the same cell with the same heading again and again, so it will for ever.
+    /// It came to the same cell with the same heading again and again, so it will forever.
     Circles,
-    /// No line of its rule named an open side, or time was up.
+    /// No line of its rule named an open side.
     Stuck,
 }
 
@@ -37,56 +39,138 @@ pub(super) struct RuleRun {
     pub(super) replay: String,
 }
 
-/// The run is broken off when a cell is left the third time to the same side. A rule without a
-/// memory then repeats itself.
+/// Number of times that the robot comes to a cell with the same heading. A rule without a memory
+/// repeats itself from the second time on; the film shows it once more.
 const ROUNDS: u32 = 3;
 
-/// Time steps that a robot may make per cell of the maze. A wall follower meets each cell at most
-/// four times in a round and needs about three steps a cell.
-const STEPS_PER_CELL: u32 = 100;
+/// Number of time steps in which the robot drives from one cell to the next.
+const DRIVE: u32 = 4;
 
-/// Sends the laser Pioneer of the MSLST paper, without noise, from the start of a maze. It obeys a
-/// rule: see [`RuleBrain`].
+/// Sends the laser Pioneer of the MSLST paper, without noise, from the start of a maze. In each
+/// cell it goes to the first side of `rule` that is open; north is ahead.
 pub(super) fn run(maze: &Maze, rule: &[Direction]) -> Result<RuleRun, PlaygroundError> {
-    let (start, heading) = start_of(maze);
     let course = Course::new("lesson", maze.clone(), CORRIDOR_WIDTH)?;
-    let trial = Trial {
-        robot: without_noise(&calibrated()),
-        start: Pose::new(course.cell_centre(start), heading_of(heading)),
-        step_limit: STEPS_PER_CELL * maze.grid().cell_count() as u32,
-        seed: 1,
-        course: &course,
-    };
-    let brain = RuleBrain::new(rule.to_vec(), course.corridor_width, heading);
-    let mut mind = Mind::Brain(Box::new(brain));
-    let mut recorder = Recorder::new(&trial);
-    let mut left: BTreeMap<(Cell, Direction), u32> = BTreeMap::new();
-    let mut at = start;
-    let (mut cells, mut circles) = (0, false);
-    let episode = run_while(&trial, &mut mind, None, |step| {
-        recorder.see(step);
-        let position = step.robot.truth().pose.position;
-        let cell = course.world.cell_at(position).unwrap_or(at);
-        if cell != at {
-            let rounds = left.entry((at, step.action)).or_default();
-            *rounds += 1;
-            circles |= *rounds == ROUNDS;
-            (at, cells) = (cell, cells + 1);
+    let mut driver = Driver::new(&course)?;
+    let mut visits: BTreeMap<(Cell, Direction), u32> = BTreeMap::new();
+    let mut lines = Notes::new("line of the rule");
+    let mut cells = 0;
+    let end = loop {
+        if maze.goals().contains(&driver.cell()) {
+            break RuleEnd::Arrived;
         }
-        match circles {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
+        let rounds = visits.entry((driver.cell(), driver.heading)).or_default();
+        *rounds += 1;
+        if *rounds == ROUNDS {
+            break RuleEnd::Circles;
         }
-    })?;
-    let end = match (episode.reached, circles) {
-        (true, _) => RuleEnd::Arrived,
-        (false, true) => RuleEnd::Circles,
-        (false, false) => RuleEnd::Stuck,
+        let is_open = |(_, side): &(usize, &Direction)| driver.is_open(**side);
+        let Some((line, side)) = (1..).zip(rule).find(is_open) else {
+            break RuleEnd::Stuck;
+        };
+        lines.say(driver.poses.len() as u32 - 1, line.to_string());
+        driver.go(*side).map_err(PlaygroundError::Robot)?;
+        cells += 1;
     };
-    let replay = recorder.finish("A robot with a rule", &episode);
+    let mut track = driver.track();
+    let scenery = scenery_of(&course, &mut track);
+    track.notes = vec![lines];
+    let step_s = configured(&course).step_us as f64 * 1e-6;
+    let replay = Replay::new("A robot with a rule", step_s, scenery, vec![track]);
     Ok(RuleRun {
         end,
         cells,
         replay: json(&replay)?,
     })
+}
+
+/// Returns the robot, which turns by an eighth of a circle in a step.
+fn configured(course: &Course) -> LaserPioneerConfig {
+    let mut config = without_noise(&calibrated());
+    config.turn_per_step = FRAC_PI_4;
+    config.translate_per_step = course.pitch() / f64::from(DRIVE);
+    config
+}
+
+/// A robot that is driven from the middle of one cell to that of the next.
+struct Driver<'a> {
+    course: &'a Course,
+    robot: Solo<LaserPioneer>,
+    heading: Direction,
+    poses: Vec<Pose>,
+}
+
+impl<'a> Driver<'a> {
+    fn new(course: &'a Course) -> Result<Self, PlaygroundError> {
+        let (start, heading) = start_of(&course.maze);
+        let pose = Pose::new(course.cell_centre(start), heading_of(heading));
+        let cannot = |error: BoxError| PlaygroundError::Robot(error);
+        let model = LaserPioneer::new(configured(course)).map_err(|error| cannot(error.into()))?;
+        let robot = Solo::new(course.world.clone(), model, pose, 1);
+        Ok(Self {
+            course,
+            robot: robot.map_err(|error| cannot(error.into()))?,
+            heading,
+            poses: vec![pose],
+        })
+    }
+
+    fn cell(&self) -> Cell {
+        let at = self.robot.truth().pose.position;
+        let cell = self.course.world.cell_at(at);
+        cell.unwrap_or_else(|| start_of(&self.course.maze).0)
+    }
+
+    /// Returns whether the laser reaches farther to this side than the corridor is wide.
+    fn is_open(&self, side: Direction) -> bool {
+        let scan: Option<&Scan> = self.robot.sensing().scan.as_ref();
+        let range = scan.and_then(|scan| scan.range_towards(turn_to(side), 0));
+        range.is_some_and(|range| range >= self.course.corridor_width)
+    }
+
+    /// Turns to a side and drives one cell.
+    fn go(&mut self, side: Direction) -> Result<(), BoxError> {
+        let turn = turn_to(side);
+        let turn = TurnTranslate {
+            turn: turn.signum(),
+            translate: 0.0,
+        };
+        for _ in 0..(turn_to(side).abs() / FRAC_PI_4).round() as u32 {
+            self.step(turn)?;
+        }
+        let drive = TurnTranslate {
+            turn: 0.0,
+            translate: 1.0,
+        };
+        for _ in 0..DRIVE {
+            self.step(drive)?;
+        }
+        self.heading = self.heading.turned(side);
+        Ok(())
+    }
+
+    fn step(&mut self, command: TurnTranslate) -> Result<(), BoxError> {
+        self.robot.step(&command)?;
+        self.poses.push(self.robot.truth().pose);
+        Ok(())
+    }
+
+    fn track(self) -> RobotTrack {
+        let config = configured(self.course);
+        let body = Body::Circle {
+            radius: config.radius,
+        };
+        let mut track = RobotTrack::new("robot", body, self.poses);
+        track.ring = Some(config.ring);
+        track
+    }
+}
+
+/// Returns the turn to a side of the robot, rad, counter-clockwise.
+const fn turn_to(side: Direction) -> f64 {
+    match side {
+        Direction::North => 0.0,
+        Direction::East => -FRAC_PI_2,
+        Direction::South => 2.0 * FRAC_PI_2,
+        Direction::West => FRAC_PI_2,
+    }
 }

@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 use tolman_maze::Perfect;
 
 use super::rule_run::{RuleEnd, run};
-use super::{Answer, Mark, Task, TaskView};
+use super::{Answer, LessonMark, Task, TaskView};
 use crate::{PlaygroundError, Sketch};
 
 pub(super) const TASKS: &[Task] = &[Task {
@@ -31,7 +31,7 @@ o---o---o---o---o---o---o
 /// Number of mazes that nobody has seen, in each of which the rule has to hold.
 const UNSEEN: u32 = 3;
 
-fn mark(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError> {
+fn mark(sketch: &Sketch, answer: &Answer) -> Result<LessonMark, PlaygroundError> {
     let run_here = run(sketch.maze(), &answer.rule)?;
     let told = match run_here.end {
         RuleEnd::Arrived => None,
@@ -42,7 +42,7 @@ fn mark(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError> {
         RuleEnd::Stuck => Some("It stands still: no line of your rule names an open side."),
     };
     if let Some(told) = told {
-        return Ok(Mark::new(false, told).showing(run_here.replay));
+        return Ok(LessonMark::new(false, told).showing(run_here.replay));
     }
     let mut rng = ChaCha8Rng::seed_from_u64(answer.seed.into());
     let grid = sketch.maze().grid();
@@ -55,12 +55,12 @@ fn mark(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError> {
                 "It arrives here, but not in maze {number} of {UNSEEN} that it has never seen. \
                  Watch it there."
             );
-            return Ok(Mark::new(false, told).showing(run_there.replay));
+            return Ok(LessonMark::new(false, told).showing(run_there.replay));
         }
     }
     let told = format!(
         "It arrives, after {} cells. It also arrived in {UNSEEN} mazes that it had never seen.",
         run_here.cells
     );
-    Ok(Mark::new(true, told).showing(run_here.replay))
+    Ok(LessonMark::new(true, told).showing(run_here.replay))
 }

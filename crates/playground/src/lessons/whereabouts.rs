@@ -6,7 +6,7 @@ use tolman_maze::{Cell, Direction, Maze};
 use tolman_systems::planners::{PoseKnowledge, PoseSet};
 
 use super::cell_film::{CellTrack, film};
-use super::{Answer, Mark, Task, TaskView, listed};
+use super::{Answer, LessonMark, Task, TaskView, listed};
 use crate::session::count;
 use crate::{PlaygroundError, Sketch};
 
@@ -161,11 +161,11 @@ fn view_lost(sketch: &Sketch, answer: &Answer) -> Result<TaskView, PlaygroundErr
     Ok(view)
 }
 
-fn mark_lost(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError> {
+fn mark_lost(sketch: &Sketch, answer: &Answer) -> Result<LessonMark, PlaygroundError> {
     let maze = sketch.maze();
     let lost = lost(maze, answer)?;
     let Some(chosen) = answer.cells.last() else {
-        return Ok(Mark::new(
+        return Ok(LessonMark::new(
             false,
             "Click the cell in which the robot is now.",
         ));
@@ -175,14 +175,14 @@ fn mark_lost(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError> 
     cells.dedup();
     if !cells.contains(chosen) {
         let told = "It cannot be there: from there it would have seen other walls.";
-        return Ok(Mark::new(false, told));
+        return Ok(LessonMark::new(false, told));
     }
     if cells.len() > 1 {
         let told = format!(
             "It may be there, but nobody can know yet: {} cells fit all that it saw. Drive on.",
             cells.len()
         );
-        return Ok(Mark::new(false, told));
+        return Ok(LessonMark::new(false, told));
     }
     let mut mouse = Lost::new(maze, lost.poses[0], PoseSet::anywhere(maze.grid())?);
     while !mouse.is_found()
@@ -202,7 +202,7 @@ fn mark_lost(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError> 
         beliefs: lost.beliefs,
     };
     let replay = film("Where the robot may be", maze, &[track])?;
-    Ok(Mark::new(true, told).showing(replay))
+    Ok(LessonMark::new(true, told).showing(replay))
 }
 
 /// Returns the poses in dead ends with a wall ahead: all look alike.
@@ -253,7 +253,7 @@ fn shortest_plan(maze: &Maze) -> Result<Option<usize>, PlaygroundError> {
     Ok(None)
 }
 
-fn mark_plan(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError> {
+fn mark_plan(sketch: &Sketch, answer: &Answer) -> Result<LessonMark, PlaygroundError> {
     let maze = sketch.maze();
     let moves = &answer.moves[..answer.moves.len().min(MOST_MOVES)];
     let robots = planned(maze, moves)?;
@@ -275,14 +275,14 @@ fn mark_plan(sketch: &Sketch, answer: &Answer) -> Result<Mark, PlaygroundError> 
             count(moves.len(), "move"),
             robots.len()
         );
-        Mark::new(true, told)
+        LessonMark::new(true, told)
     } else {
         let told = format!(
             "Put down at {}, the robot cannot tell which of them it was: it sees the same all the \
              way.",
             listed(&unknown)
         );
-        Mark::new(false, told)
+        LessonMark::new(false, told)
     };
     Ok(mark.showing(replay))
 }

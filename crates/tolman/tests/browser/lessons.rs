@@ -14,7 +14,7 @@ fn open(tab: &mut Tab, lesson: usize, task: usize) {
     tab.until(&format!("{at} === '{lesson},{task}'"));
 }
 
-/// Clicks a choice of the page that is none of a mouse: the line of a rule.
+/// Sets the lines of the rule.
 fn rule(tab: &mut Tab, sides: [&str; 4]) {
     for (line, side) in sides.into_iter().enumerate() {
         tab.eval(&format!(
