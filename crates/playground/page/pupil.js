@@ -248,9 +248,9 @@ function openLessons(module, theme) {
     player = TolmanReplay.open(part("film"), replay, { growing: true });
     player.growing = false;
     player.setTheme(theme());
-    // At most twenty seconds.
+    // The slowest speed at which it takes no more than twelve seconds.
     const { last, stepLength } = player.run;
-    player.setSpeed([1, 2, 5, 10, 20, 50].find(speed => last * stepLength / speed <= 20) || 100);
+    player.setSpeed([0.25, 0.5, 1, 2, 5, 10, 20].find(speed => last * stepLength / speed <= 12) || 50);
     player.play();
   }
 

@@ -4,7 +4,7 @@ use tolman_arena::bump_walk::{BumpSight, BumpWalk};
 use tolman_maze::{Cell, Direction, Maze};
 
 use super::cell_film::{CellTrack, film};
-use super::{Answer, LessonMark, Task, TaskView};
+use super::{Answer, LessonMark, Task, TaskView, unmarked};
 use crate::session::count;
 use crate::{PlaygroundError, Sketch};
 
@@ -148,7 +148,7 @@ fn mark_walk(sketch: &Sketch, answer: &Answer) -> Result<LessonMark, PlaygroundE
     });
     let [a, b] = tracks;
     let tracks = [CellTrack::new("from A", a), CellTrack::new("from B", b)];
-    let replay = film("The same moves from A and from B", maze, &tracks)?;
+    let replay = film("The same moves from A and from B", &unmarked(maze), &tracks)?;
     let Some(after) = told_apart(maze, places, moves) else {
         let told = format!(
             "After {} everything still looks the same from A as from B. Watch both robots.",

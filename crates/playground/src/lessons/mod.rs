@@ -146,6 +146,14 @@ fn start_of(maze: &Maze) -> (Cell, Direction) {
     maze.start().unwrap_or((Cell::new(0, 0), Direction::North))
 }
 
+/// Returns a maze without marks, for tasks in which they mean nothing to the pupil.
+fn unmarked(maze: &Maze) -> Maze {
+    let mut bare = maze.clone();
+    bare.set_start(None);
+    bare.set_goals(Vec::new());
+    bare
+}
+
 /// Returns the names of several things: "A", "A and B", "A, B and C".
 fn listed(names: &[&str]) -> String {
     match names {

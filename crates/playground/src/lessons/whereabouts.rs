@@ -6,7 +6,7 @@ use tolman_maze::{Cell, Direction, Maze};
 use tolman_systems::planners::{PoseKnowledge, PoseSet};
 
 use super::cell_film::{CellTrack, film};
-use super::{Answer, LessonMark, Task, TaskView, listed};
+use super::{Answer, LessonMark, Task, TaskView, listed, unmarked};
 use crate::session::count;
 use crate::{PlaygroundError, Sketch};
 
@@ -201,7 +201,7 @@ fn mark_lost(sketch: &Sketch, answer: &Answer) -> Result<LessonMark, PlaygroundE
         poses: lost.poses,
         beliefs: lost.beliefs,
     };
-    let replay = film("Where the robot may be", maze, &[track])?;
+    let replay = film("Where the robot may be", &unmarked(maze), &[track])?;
     Ok(LessonMark::new(true, told).showing(replay))
 }
 
@@ -266,7 +266,7 @@ fn mark_plan(sketch: &Sketch, answer: &Answer) -> Result<LessonMark, PlaygroundE
     let tracks: Vec<CellTrack> = tracks
         .map(|(letter, robot)| CellTrack::new(letter, robot.poses.clone()))
         .collect();
-    let replay = film("One plan from every dead end", maze, &tracks)?;
+    let replay = film("One plan from every dead end", &unmarked(maze), &tracks)?;
     let mark = if unknown.is_empty() {
         let shortest = shortest_plan(maze)?.unwrap_or(moves.len());
         let told = format!(
