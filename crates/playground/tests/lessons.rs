@@ -2,7 +2,9 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on fails")]
 
-use std::collections::BTreeSet;
+extern crate alloc;
+
+use alloc::collections::BTreeSet;
 
 use tolman_maze::{Cell, Direction};
 use tolman_playground::lessons::{Answer, LessonMark, mark, task_counts, view};
