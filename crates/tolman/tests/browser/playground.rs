@@ -34,7 +34,7 @@ fn told(tab: &mut Tab) -> String {
 }
 
 /// Sets a choice or a number as a reader does.
-pub(crate) fn set(tab: &mut Tab, id: &str, value: &str) {
+fn set(tab: &mut Tab, id: &str, value: &str) {
     tab.eval(&format!(
         "(() => {{ const part = document.getElementById('{id}'); part.value = '{value}';
            part.dispatchEvent(new Event('input')); part.dispatchEvent(new Event('change')); }})()"
