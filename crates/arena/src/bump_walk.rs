@@ -111,7 +111,9 @@ impl<'a> BumpWalk<'a> {
 }
 
 impl BumpSight {
-    fn look(self, maze: &Maze, cell: Cell) -> u32 {
+    /// Returns a number for what the robot sees in a cell: the same for cells that look alike.
+    #[must_use]
+    pub fn look(self, maze: &Maze, cell: Cell) -> u32 {
         let open = |side: &Direction| u32::from(maze.is_open(cell, *side)) << side.index();
         match self {
             Self::None => 0,

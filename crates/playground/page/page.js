@@ -37,47 +37,12 @@
 
   const svg = part("sketch");
 
-  function shape(name, attributes, parent) {
-    const element = document.createElementNS("http://www.w3.org/2000/svg", name);
-    for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
-    parent.append(element);
-    return element;
-  }
-
-  // Cells are counted from the south-west; y goes down on the screen.
   function draw() {
-    const plan = JSON.parse(page.plan()), { width, height } = plan;
-    const up = y => height - y;
-    svg.replaceChildren();
-    svg.setAttribute("viewBox", [-0.15, -0.15, width + 0.3, height + 0.3].join(" "));
-    shape("rect", { class: "floor", x: 0, y: 0, width, height }, svg);
-    for (const [x, y] of plan.goals) {
-      shape("rect", { class: "goal", x: x + 0.12, y: up(y) - 0.88, width: 0.76, height: 0.76, rx: 0.1 }, svg);
-      shape("text", { x: x + 0.5, y: up(y) - 0.5 }, svg).textContent = "G";
-    }
-    if (plan.start) {
-      const [x, y] = plan.start;
-      shape("circle", { class: "start", cx: x + 0.5, cy: up(y) - 0.5, r: 0.26 }, svg);
-    }
-    const ends = { north: [0, 1, 1, 1], south: [0, 0, 1, 0], east: [1, 0, 1, 1], west: [0, 0, 0, 1] };
-    const line = ({ cell: [x, y], side }, kind) => {
-      const [x1, y1, x2, y2] = ends[side];
-      return { class: kind, x1: x + x1, y1: up(y + y1), x2: x + x2, y2: up(y + y2) };
-    };
-    const order = plan.walls.filter(wall => !wall.stands).concat(plan.walls.filter(wall => wall.stands));
-    for (const wall of order) shape("line", line(wall, wall.stands ? "wall" : "gap"), svg);
-    for (const wall of plan.walls.filter(wall => !wall.is_border)) {
-      const hit = shape("line", line(wall, "hit"), svg);
-      hit.addEventListener("click", () => change(() => page.set_wall(...wall.cell, wall.side, !wall.stands)));
-      hit.dataset.wall = [...wall.cell, wall.side].join(" ");
-    }
-    for (let x = 0; x < width; x++) {
-      for (let y = 0; y < height; y++) {
-        const cell = shape("rect", { class: "cell", x, y: up(y) - 1, width: 1, height: 1 }, svg);
-        cell.addEventListener("click", () => change(() => tool() === "start" ? page.set_start(x, y) : page.set_goal(x, y)));
-        cell.dataset.cell = x + " " + y;
-      }
-    }
+    const plan = JSON.parse(page.plan());
+    drawMaze(svg, plan, {
+      onWall: wall => change(() => page.set_wall(...wall.cell, wall.side, !wall.stands)),
+      onCell: (x, y) => change(() => tool() === "start" ? page.set_start(x, y) : page.set_goal(x, y)),
+    });
     svg.dataset.tool = tool();
     part("text").value = page.text();
     part("start").disabled = plan.fault !== null;
@@ -270,14 +235,17 @@
 
   function setTheme(theme) {
     document.documentElement.dataset.theme = theme;
-    if (run && run.player.root.dataset.theme !== theme) run.player.setTheme(theme);
+    const player = run ? run.player : lessons?.player;
+    if (player && player.root.dataset.theme !== theme) player.setTheme(theme);
   }
+  let lessons = null;
   const dark = matchMedia("(prefers-color-scheme: dark)");
   dark.addEventListener("change", () => setTheme(dark.matches ? "dark" : "light"));
   part("theme").addEventListener("click", () => setTheme(document.documentElement.dataset.theme === "dark" ? "light" : "dark"));
   setTheme(dark.matches ? "dark" : "light");
 
   redraw();
+  lessons = openLessons(wasm_bindgen, () => document.documentElement.dataset.theme);
   // For tests, and for the curious.
-  window.tolmanPlayground = { page, get run() { return run; } };
+  window.tolmanPlayground = { page, lessons, get run() { return run; } };
 })();

@@ -5,6 +5,7 @@ use tolman_arena::family::Family;
 use tolman_maze::{Cell, Direction};
 use wasm_bindgen::prelude::wasm_bindgen;
 
+use crate::lessons::{self, Answer};
 use crate::{Playground, PlaygroundError, Session, Sketch};
 
 fn json(value: &impl Serialize) -> String {
@@ -135,4 +136,24 @@ impl PlaygroundPage {
             .as_mut()
             .ok_or_else(|| "nobody was sent into the maze yet".to_owned())
     }
+}
+
+fn answer(text: &str) -> Result<Answer, PlaygroundError> {
+    Ok(serde_json::from_str(text)?)
+}
+
+/// Returns what a pupil sees of a task of a lesson. Both count from 1.
+#[wasm_bindgen]
+#[expect(unreachable_pub, reason = "JavaScript calls it")]
+pub fn task_view(lesson: usize, task: usize, text: &str) -> Result<String, String> {
+    let view = answer(text).and_then(|answer| lessons::view(lesson, task, &answer));
+    Ok(json(&told(view)?))
+}
+
+/// Marks a pupil's answer to a task of a lesson. Both count from 1.
+#[wasm_bindgen]
+#[expect(unreachable_pub, reason = "JavaScript calls it")]
+pub fn mark_task(lesson: usize, task: usize, text: &str) -> Result<String, String> {
+    let mark = answer(text).and_then(|answer| lessons::mark(lesson, task, &answer));
+    Ok(json(&told(mark)?))
 }

@@ -5,11 +5,16 @@
 //! robot elsewhere, and sends it to the goal. It reports the outcome. What it shows is a replay
 //! that grows, for the same player as every other run.
 //!
+//! The [`lessons`] have tasks for pupils, and mark what they answer.
+//!
 //! Compiled for `wasm32-unknown-unknown`, the module `bindings` hands these to JavaScript;
 //! `cargo xtask playground` puts them into one HTML file with the page below `page`.
 
+extern crate alloc;
+
 #[cfg(target_arch = "wasm32")]
 mod bindings;
+pub mod lessons;
 mod playground;
 mod session;
 mod sketch;

@@ -2,9 +2,11 @@ use serde::Serialize;
 use thiserror::Error;
 use tolman_arena::BoxError;
 use tolman_arena::contest::{Condition, Contest, ContestError, SteppedContest};
+use tolman_arena::course::CourseError;
 use tolman_arena::registry::{Registry, Schooling, SystemEntry};
-use tolman_maze::MazeError;
+use tolman_maze::{GenerateError, MazeError};
 use tolman_replay::EncodeError;
+use tolman_systems::planners::TooLarge;
 
 use crate::{Session, Sketch};
 
@@ -41,6 +43,29 @@ pub enum PlaygroundError {
     /// The run cannot be shown.
     #[error(transparent)]
     Replay(#[from] EncodeError),
+    /// There is no such task.
+    #[error("lesson {lesson} has no task {task}; both count from 1")]
+    Task {
+        /// Number of the lesson.
+        lesson: usize,
+        /// Number of the task in the lesson.
+        task: usize,
+    },
+    /// The answer to a task is not of the form that the page sends.
+    #[error("the answer cannot be read: {0}")]
+    Answer(#[from] serde_json::Error),
+    /// A lesson's robot cannot run in the maze.
+    #[error("no robot can be sent into this maze: {0}")]
+    Course(#[from] CourseError),
+    /// A lesson's robot cannot be made, or cannot go on.
+    #[error("the robot cannot drive here: {0}")]
+    Robot(#[source] BoxError),
+    /// A lesson's maze cannot be drawn.
+    #[error("the maze cannot be drawn: {0}")]
+    Drawing(#[from] GenerateError),
+    /// A lesson's maze is too large.
+    #[error("the maze is too large: {0}")]
+    TooLarge(#[from] TooLarge),
 }
 
 /// Returns the message of an error's innermost source.

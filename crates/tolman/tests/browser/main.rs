@@ -9,6 +9,7 @@
 
 mod client;
 mod devtools;
+mod lessons;
 mod pages;
 mod playground;
 mod replay;

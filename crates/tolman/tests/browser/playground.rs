@@ -12,10 +12,10 @@ use crate::tab::{Scheme, Tab};
 use crate::{folder, tab, tell};
 
 /// The page has a program to compile and robots to run, on machines that do other things besides.
-const PATIENCE: Duration = Duration::from_secs(90);
+pub(crate) const PATIENCE: Duration = Duration::from_secs(90);
 
 /// Returns the page, opened, with a folder for pictures; none, said on stderr, where there is none.
-fn opened(name: &str) -> Option<(Tab, PathBuf)> {
+pub(crate) fn opened(name: &str) -> Option<(Tab, PathBuf)> {
     let Some(page) = env::var_os("TOLMAN_PLAYGROUND") else {
         tell("left out: TOLMAN_PLAYGROUND names no page");
         return None;
