@@ -1,6 +1,7 @@
-"""Writes the reference of a module from its docstrings, and says what they lack.
+"""Writes the reference of modules from their docstrings, and says what these lack.
 
     python crates/python-quantizers/reference.py tolman_quantizers > docs/python-quantizers.md
+    python crates/python-quantizers/reference.py tolman tolman.gym > docs/python-tolman.md
 """
 
 from __future__ import annotations
@@ -13,18 +14,13 @@ from collections.abc import Iterator
 from typing import Any
 
 SECTIONS = ("Parameters", "Attributes", "Returns", "Raises", "Warns")
-TITLES = {
-    "tolman": "Reference of tolman",
-    "tolman.gym": "Reference of tolman.gym",
-    "tolman_quantizers": "Reference of tolman_quantizers",
-}
 
 
 def own(module: Any) -> dict[str, Any]:
     """Return what a module offers and this project wrote, by name."""
     family = module.__name__.partition(".")[0]
     offered = {name: getattr(module, name) for name in module.__all__}
-    return {name: value for name, value in offered.items() if getattr(value, "__module__", family).partition(".")[0] == family}
+    return {name: value for name, value in offered.items() if (getattr(value, "__module__", None) or family).partition(".")[0] == family}
 
 
 def members(kind: type) -> Iterator[tuple[str, Any]]:
@@ -103,7 +99,8 @@ def faults(module: Any) -> list[str]:
                 found.append(f"{name}: it does not say what is raised")
             gives = inspect.signature(value.__func__ if isinstance(value, (staticmethod, classmethod)) else value).return_annotation
             says = "Returns" in sections or re.search(r"\bReturns?\b", words)
-            if gives not in (None, "None") and not says:
+            # Functions of Rust have no annotation here: their stubs say it.
+            if gives not in (None, "None", inspect.Signature.empty) and not says:
                 found.append(f"{name}: it does not say what comes back")
 
     for name, value in own(module).items():
@@ -114,17 +111,24 @@ def faults(module: Any) -> list[str]:
     return found
 
 
-def page(module: Any) -> str:
-    """Return the reference as a page of Markdown."""
-    told = [f"# {TITLES[module.__name__]}", "", _plain(parts(doc_of(module))[0]), ""]
-    told += ["Made of the docstrings, which `help` shows, too. [How to use it](python.md).", ""]
-    names = own(module)
-    told += [" · ".join(f"[{name}](#{name.lower()})" for name in names), ""]
-    for name, value in names.items():
-        told += [f"## {name}", "", *_described(name, value)]
-        if inspect.isclass(value):
-            for member, what in members(value):
+def page(*modules: Any) -> str:
+    """Return the reference of modules as a page of Markdown."""
+    told = [f"# Reference of {modules[0].__name__}", "", "Made of the docstrings, which `help` shows, too. [How to use it](python.md).", ""]
+    shown: dict[Any, str] = {}
+    for module in modules:
+        names = own(module)
+        told += [_plain(parts(doc_of(module))[0]), "", " · ".join(f"[{name}](#{name.lower()})" for name in names), ""]
+        for name, value in names.items():
+            told += [f"## {name}", "", *_described(name, value)]
+            again: dict[str, list[str]] = {}
+            for member, what in members(value) if inspect.isclass(value) else ():
+                if what in shown:
+                    again.setdefault(shown[what], []).append(f"`{member}`")
+                    continue
+                shown[what] = name
                 told += [f"### {name}.{member}", "", *_described(f"{name}.{member}", what)]
+            for other, same in again.items():
+                told += [f"As those of [{other}](#{other.lower()}): {', '.join(same)}.", ""]
     return "\n".join(told).rstrip() + "\n"
 
 
@@ -153,4 +157,4 @@ def _plain(words: str) -> str:
 
 
 if __name__ == "__main__":
-    sys.stdout.write(page(importlib.import_module(sys.argv[1])))
+    sys.stdout.write(page(*map(importlib.import_module, sys.argv[1:])))

@@ -572,7 +572,7 @@ class GNG(_Grower):
         How often `fit` goes through X. "auto" goes on until there were inputs enough to grow `max_units`, and as many
         again to settle: 2 · max_units · growth_period.
     shuffle : bool
-        Whether `fit` takes the rows in an order drawn anew in each epoch. Sorted rows want it.
+        Whether `fit` takes the rows in an order that is drawn again in each epoch. Sorted rows want it.
     random_state : int, RandomState or None
         The seed of that order.
     batch_size : int or None
@@ -663,7 +663,6 @@ class EquilibriumGNG(_Grower):
     gate : {"mean_error", "rate"}
         What is compared with it: the mean of the units' errors, as in MSLST, or that times 1 − decay, as in Provost's
         code for SODA.
-
     max_units, growth_period, winner_rate, neighbour_rate, max_age, split_factor, decay, error, order
         Those of `GNG`, with the defaults of MSLST. `max_units` is a bound, which need not be reached.
     n_epochs, shuffle, random_state, batch_size, compute_labels, progress
