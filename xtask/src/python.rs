@@ -8,7 +8,7 @@ use std::{env, fs};
 use anyhow::{Context, Result, bail};
 
 use crate::ci::Outcome;
-use crate::workspace::{self, cargo, entries, succeed, target_folder};
+use crate::workspace::{self, entries, succeed, target_folder};
 
 /// Packages to build and test the modules with, each in its newest release. A kernel and its client
 /// run the notebooks.
@@ -42,9 +42,8 @@ const OLD: &[&str] = &[
 /// The packages, the smaller first; each needs those before it.
 const CRATES: [&str; 2] = ["crates/python-quantizers", "crates/python"];
 
-/// Builds the command and, in release, the wheels, installs them and runs their tests, if Python and
-/// its packages are available: all with the newest packages, those of the quantizers also with old
-/// ones.
+/// Builds the wheels in release, installs them and runs their tests, if Python and its packages are
+/// available: all with the newest packages, those of the quantizers also with old ones.
 ///
 /// # Errors
 /// If a step fails for another reason than that they are missing.
@@ -61,8 +60,6 @@ pub(crate) fn check() -> Result<Outcome> {
         let why = "the packages it is built and tested with cannot be installed";
         return Ok(Outcome::Missing(why.to_owned()));
     }
-    // Mappers of Python enter its arena, where the tests find it.
-    succeed(&mut cargo("build --quiet -p tolman"))?;
     let mut wheels = Vec::new();
     for folder in CRATES {
         let wheel = environment.wheel(folder)?;

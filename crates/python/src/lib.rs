@@ -42,5 +42,5 @@ mod _tolman {
     #[pymodule_export]
     use crate::robot::PyRobot;
     #[pymodule_export]
-    use crate::system::{learn, settings, systems};
+    use crate::system::{learn, systems};
 }

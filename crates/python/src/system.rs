@@ -1,32 +1,25 @@
 use core::slice;
 use core::time::Duration;
-use std::collections::BTreeMap;
 use std::sync::OnceLock;
 use std::time::Instant;
 
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
-use rand_chacha::ChaCha8Rng;
 use tolman_arena::Outing;
-use tolman_arena::contest::{
-    Condition, Contest, ContestError, LearnRecord, SteppedContest, TaskRecord,
-};
+use tolman_arena::contest::{Condition, Contest, LearnRecord, SteppedContest, TaskRecord};
 use tolman_arena::course::Terrain;
 use tolman_arena::registry::{
-    AllSettings, MapText, Registry, RobotEntry, Schooling, Settings, Setup, Start, SystemEntry,
-    UnknownName,
+    MapText, Registry, RobotEntry, Schooling, Settings, Setup, Start, SystemEntry,
 };
 use tolman_arena::run::{self, TaskEnd};
 use tolman_film::Film;
 use tolman_maze::MazeFile;
-use tolman_maze::rand::SeedableRng;
 use tolman_replay::Replay;
 use tolman_robot::{Goal, Landmark, Task};
 
 use crate::drive::PyDrive;
 use crate::errors::{reasons, refused, wrong};
 use crate::map::PyMap;
-use crate::maze::{PyMaze, family};
+use crate::maze::PyMaze;
 
 /// Returns the names of the systems that learn a map of a maze, as a list of str.
 #[pyfunction]
@@ -49,10 +42,6 @@ pub(crate) fn systems() -> Vec<String> {
 /// robot : str
 ///     The robot of the system's paper, "own", or another that can carry it, such as
 ///     "laser-pioneer".
-/// preset : str or None
-///     One of the system's presets, as `tolman systems NAME` lists them; None is that of the arena.
-/// settings : dict or None
-///     Values to change, by the names that `settings` returns.
 /// progress : callable or None
 ///     Called now and then with the number of time steps so far and a few words.
 ///
@@ -63,12 +52,9 @@ pub(crate) fn systems() -> Vec<String> {
 /// Raises
 /// ------
 /// ValueError
-///     If there is no such system, robot, preset or setting, or it cannot learn in this maze.
+///     If there is no such system or robot, or it cannot learn in this maze.
 #[pyfunction]
-#[pyo3(
-    signature = (maze, system = "mslst-better", seed = 1, *, robot = "own", preset = None, settings = None, progress = None)
-)]
-#[expect(clippy::too_many_arguments, reason = "Python passes them by name")]
+#[pyo3(signature = (maze, system = "mslst-better", seed = 1, *, robot = "own", progress = None))]
 #[expect(
     clippy::needless_pass_by_value,
     reason = "Python hands over objects of their own"
@@ -79,19 +65,8 @@ pub(crate) fn learn(
     system: &str,
     seed: u64,
     robot: &str,
-    preset: Option<String>,
-    settings: Option<BTreeMap<String, Bound<'_, PyAny>>>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<PyMap> {
-    let settings = settings.unwrap_or_default();
-    let set = settings.iter().map(|(name, value)| {
-        // TOML writes numbers and lists as Python does, and truth in lower case.
-        let text = match value.extract::<bool>() {
-            Ok(is_so) => is_so.to_string(),
-            Err(_) => value.str()?.to_string(),
-        };
-        Ok((name.clone(), text))
-    });
     let lesson = Lesson {
         maze,
         system: of_name(system)?,
@@ -100,8 +75,6 @@ pub(crate) fn learn(
             name => Some(robot_named(name)?),
         },
         seed,
-        preset,
-        set: set.collect::<PyResult<_>>()?,
     };
     lesson.learn(py, progress.as_ref())
 }
@@ -130,99 +103,6 @@ fn robot_named(name: &str) -> PyResult<RobotEntry> {
     })
 }
 
-/// Returns the settings of a system that learns maps, with their values.
-///
-/// Parameters
-/// ----------
-/// system : str
-///     One of `systems()`.
-/// preset : str or None
-///     One of the system's presets; None is that of the arena.
-///
-/// Returns
-/// -------
-/// dict
-///     Numbers, truth values and texts by name. Names with a dot are of a part.
-///
-/// Raises
-/// ------
-/// ValueError
-///     If there is no such system or preset.
-#[pyfunction]
-#[pyo3(signature = (system, *, preset = None))]
-pub(crate) fn settings<'py>(
-    py: Python<'py>,
-    system: &str,
-    preset: Option<&str>,
-) -> PyResult<Bound<'py, PyDict>> {
-    let small = family("maze", "perfect")?;
-    let maze = (small.draw)((5, 5), &mut ChaCha8Rng::seed_from_u64(1));
-    let maze = maze.map_err(|error| wrong(reasons(&*error)))?;
-    let contest = Contest {
-        contestant: of_name(system)?,
-        robot: None,
-        maze: &maze,
-        name: "any",
-        condition: Condition::AsMade,
-        starts: 0,
-        seed: 1,
-        stopwatch: None,
-    };
-    let set = [(Settings::HELP.to_owned(), String::new())];
-    let asked = Settings { preset, set: &set };
-    let known = PyDict::new(py);
-    let answer = SteppedContest::with_settings(&contest, asked, schooling());
-    let Err(ContestError::Enter { source, .. }) = answer else {
-        return Ok(known);
-    };
-    if let Some(unknown) = source.downcast_ref::<UnknownName>() {
-        return Err(without(unknown));
-    }
-    // A system without settings says so in another way.
-    let all = source.downcast::<AllSettings>();
-    let all = all.map(|all| all.0).unwrap_or_default();
-    for (name, value) in all {
-        if let Some(truth) = value.as_bool() {
-            known.set_item(name, truth)?;
-        } else if let Some(number) = value.as_integer() {
-            known.set_item(name, number)?;
-        } else if let Some(number) = value.as_float() {
-            known.set_item(name, number)?;
-        } else {
-            let text = value
-                .as_str()
-                .map_or_else(|| value.to_string(), str::to_owned);
-            known.set_item(name, text)?;
-        }
-    }
-    Ok(known)
-}
-
-/// Returns a `ValueError` that names the parameter because of which a system was not sent out.
-fn not_entered(error: &ContestError) -> PyErr {
-    let ContestError::Enter { source, .. } = error else {
-        return refused("maze", error);
-    };
-    if let Some(unknown) = source.downcast_ref::<UnknownName>() {
-        return without(unknown);
-    }
-    // The command's words for a setting that is wrong.
-    let told = source.to_string();
-    match told.strip_prefix("--set ") {
-        Some(told) => wrong(format!("settings: {told}")),
-        None => refused("maze", error),
-    }
-}
-
-/// Returns a `ValueError` that names the presets or settings that there are.
-fn without(unknown: &UnknownName) -> PyErr {
-    let told = unknown.told.rsplit(": ").next().unwrap_or_default();
-    wrong(format!(
-        "{told}; choose one of: {}",
-        unknown.known.join(", ")
-    ))
-}
-
 /// Knowledge that systems learn once, before they are sent out.
 static SCHOOLING: OnceLock<Schooling> = OnceLock::new();
 
@@ -237,10 +117,6 @@ pub(crate) struct Lesson {
     /// `None` for the one that the system is made for.
     robot: Option<RobotEntry>,
     seed: u64,
-    /// `None` for the arena's.
-    preset: Option<String>,
-    /// Settings by their names, as text.
-    set: Vec<(String, String)>,
 }
 
 impl Lesson {
@@ -277,12 +153,8 @@ impl Lesson {
         if let Some(why) = contest.abstains() {
             return Err(wrong(format!("maze: {name} cannot learn it: {why}")));
         }
-        let settings = Settings {
-            preset: self.preset.as_deref(),
-            set: &self.set,
-        };
-        let stepped = SteppedContest::with_settings(&contest, settings, schooling());
-        let mut stepped = stepped.map_err(|error| not_entered(&error))?;
+        let stepped = SteppedContest::new(&contest, schooling());
+        let mut stepped = stepped.map_err(|error| refused("maze", &error))?;
         stepped.explore();
         let mut film = is_filmed.then(|| Film::new(stepped.outing()));
         let mut watch = Watch::new(progress);

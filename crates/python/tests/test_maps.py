@@ -106,18 +106,6 @@ def test_progress_is_told_and_control_c_ends_learning():
         tolman.learn(Maze.generate("ring", 5, 5, seed=1), "gng-slam-better", progress=lambda steps, words: 1 // 0)
 
 
-def test_settings_are_listed_and_change_what_is_learned():
-    assert all(isinstance(tolman.settings(system), dict) for system in tolman.systems())
-    known = tolman.settings("mslst-better")
-    maze = Maze.generate("ring", 5, 5, seed=1)
-    usual = tolman.learn(maze, settings={}).path
-    assert (tolman.learn(maze, settings={"action_way": known["action_way"], "motors.way_sd": 0.25}).path == usual).all()
-    shorter = tolman.learn(maze, settings={"action_way": 0.6 * known["action_way"]})
-    assert not np.array_equal(shorter.path, usual) and "<svg" in shorter.replay().svg()
-    presets = tolman.settings("cpm-better")
-    assert any(isinstance(value, bool) for value in presets.values()), presets
-
-
 def test_a_log_is_mapped():
     found = tolman.map_log(LOG)
     wheels = tolman.map_log(str(LOG), "odometry")
@@ -135,10 +123,6 @@ def test_a_log_is_mapped():
         (lambda: tolman.learn(Maze.generate(), "oracle"), "system is 'oracle'"),
         (lambda: tolman.learn(Maze.generate(), "cpm", robot="horse"), "robot is 'horse'"),
         (lambda: tolman.learn(Maze.generate("pillars", 5, 5), "cpm"), "maze: CPM cannot learn it: .*open square"),
-        (lambda: tolman.settings("magic"), "system is 'magic' but has to be one of mslst"),
-        (lambda: tolman.settings("mslst", preset="k"), "there is no preset k; choose one of: "),
-        (lambda: tolman.learn(Maze.generate(), settings={"bufer": 1}), "there is no setting bufer; choose one of: .*buffer"),
-        (lambda: tolman.learn(Maze.generate(), settings={"buffer": "wide"}), "settings: buffer=wide: .*a number"),
         (lambda: tolman.map_log(LOG, "mslst"), "system is 'mslst' but has to be one of .*odometry"),
         (lambda: tolman.map_log(ROOT / "README.md"), "path: .*no scan can be used"),
         (lambda: tolman.map_log(LOG, "odometry").save("map.json"), "this map has no file: it comes from a log"),

@@ -379,18 +379,6 @@ impl Contest<'_> {
     /// # Errors
     /// [`ContestError::Enter`] if robot and drawing do not fit together.
     pub(super) fn enter(&self, schooling: &Schooling) -> Result<Box<dyn Outing>, ContestError> {
-        self.enter_with(Settings::default(), schooling)
-    }
-
-    /// Puts the contestant at the start with other settings; without a preset, it is the arena's.
-    ///
-    /// # Errors
-    /// As [`Self::enter`], also if the contestant has no such setting.
-    pub(super) fn enter_with(
-        &self,
-        settings: Settings<'_>,
-        schooling: &Schooling,
-    ) -> Result<Box<dyn Outing>, ContestError> {
         let terrain = Terrain::Maze(MazeFile::from(self.maze.clone()));
         let setup = Setup {
             world: self.name,
@@ -401,8 +389,8 @@ impl Contest<'_> {
             robot: self.robot(),
             from: None,
             settings: Settings {
-                preset: settings.preset.or(self.contestant.facts().arena_preset),
-                ..settings
+                preset: self.contestant.facts().arena_preset,
+                set: &[],
             },
             condition: self.condition,
             schooling,

@@ -7,7 +7,7 @@ use tolman_robot::{Goal, Landmark, Standing, Task};
 use super::play::{
     Bout, Contest, ContestError, Driven, LearnRecord, LocateOutcome, Measured, Moment, Pursuit,
 };
-use crate::registry::{Schooling, Settings};
+use crate::registry::Schooling;
 use crate::{BoxError, Outing};
 
 /// Result of a [show](Contest::show).
@@ -46,15 +46,11 @@ pub struct FoundOut {
 
 impl Contest<'_> {
     /// Puts the contestant at the start.
-    pub(super) fn bout(
-        &self,
-        settings: Settings<'_>,
-        schooling: &Schooling,
-    ) -> Result<Bout, ContestError> {
+    pub(super) fn bout(&self, schooling: &Schooling) -> Result<Bout, ContestError> {
         if let Some(why) = self.abstains() {
             return Err(self.enter_error(why.into()));
         }
-        Ok(Bout::new(self, self.enter_with(settings, schooling)?))
+        Ok(Bout::new(self, self.enter(schooling)?))
     }
 
     /// Plays the show and returns its result. Calls `watch` at every [`Moment`].
@@ -70,7 +66,7 @@ impl Contest<'_> {
         schooling: &Schooling,
         mut watch: impl FnMut(&dyn Outing, Moment),
     ) -> Result<ShowRecord, ContestError> {
-        let mut bout = self.bout(Settings::default(), schooling)?;
+        let mut bout = self.bout(schooling)?;
         watch(&*bout.outing, Moment::Begun);
         let learned = bout.learn(None, &mut watch);
         let explored = learned.driven * bout.scale();

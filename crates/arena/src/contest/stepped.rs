@@ -11,7 +11,7 @@ use super::evidence::TrueVisits;
 use super::play::{Bout, Contest, ContestError, LearnRecord, Pursuit};
 use super::show::{FoundOut, WayHome};
 use crate::Outing;
-use crate::registry::{Schooling, Settings, SystemEntry};
+use crate::registry::{Schooling, SystemEntry};
 use crate::run::TaskEnd;
 
 /// A contestant in a drawing, made to act one action at a time.
@@ -50,23 +50,10 @@ impl SteppedContest {
     /// # Errors
     /// [`ContestError::Enter`], also if the contestant [abstains](Contest::abstains).
     pub fn new(contest: &Contest<'_>, schooling: &Schooling) -> Result<Self, ContestError> {
-        Self::with_settings(contest, Settings::default(), schooling)
-    }
-
-    /// Puts the contestant at the start with other settings than the arena's. Without a preset, it
-    /// is the arena's.
-    ///
-    /// # Errors
-    /// As [`Self::new`], also if the contestant has no such preset or setting.
-    pub fn with_settings(
-        contest: &Contest<'_>,
-        settings: Settings<'_>,
-        schooling: &Schooling,
-    ) -> Result<Self, ContestError> {
         Ok(Self {
             contestant: contest.contestant,
             world: contest.name.to_owned(),
-            bout: contest.bout(settings, schooling)?,
+            bout: contest.bout(schooling)?,
             stage: Stage::Idle,
         })
     }

@@ -13,7 +13,7 @@ from tolman_quantizers import GNG, SOINN, AssociativeMemory, EquilibriumGNG, Not
 from ._arena import arena
 from ._mapper import Belief, Guess, Hello, Mapper, Place, PlaceMap, Step
 from ._planners import Path, shortest_path
-from ._tolman import BumpMap, Drive, Map, Maze, Mouse, Replay, Robot, learn, map_log, settings, systems
+from ._tolman import BumpMap, Drive, Map, Maze, Mouse, Replay, Robot, learn, map_log, systems
 
 __all__ = [
     "GNG",
@@ -39,7 +39,6 @@ __all__ = [
     "arena",
     "learn",
     "map_log",
-    "settings",
     "shortest_path",
     "systems",
 ]

@@ -1,4 +1,4 @@
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from os import PathLike
 from typing import Any, final
 
@@ -17,7 +17,6 @@ __all__ = [
     "cheapest_path",
     "learn",
     "map_log",
-    "settings",
     "systems",
 ]
 
@@ -214,15 +213,12 @@ class Grids:
     def action_count(self) -> int: ...
 
 def systems() -> list[str]: ...
-def settings(system: str, *, preset: str | None = None) -> dict[str, bool | int | float | str]: ...
 def learn(
     maze: Maze,
     system: str = "mslst-better",
     seed: int = 1,
     *,
     robot: str = "own",
-    preset: str | None = None,
-    settings: Mapping[str, object] | None = None,
     progress: Callable[[int, str], object] | None = None,
 ) -> Map: ...
 def map_log(path: str | PathLike[str], system: str = "scan-matching") -> Map: ...
