@@ -1,7 +1,6 @@
 """Writes the reference of modules from their docstrings, and says what these lack.
 
     python crates/python-quantizers/reference.py tolman_quantizers > docs/python-quantizers.md
-    python crates/python-quantizers/reference.py tolman tolman.gym > docs/python-tolman.md
 """
 
 from __future__ import annotations

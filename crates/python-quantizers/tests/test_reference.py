@@ -1,6 +1,7 @@
 """Docstrings say what a user has to know, and the page in docs is made of them."""
 
 import runpy
+import types
 from pathlib import Path
 
 import pytest
@@ -34,5 +35,6 @@ def learn(rows, *, step=1):
 
 @pytest.mark.parametrize("lack", ["the parameter rows is not", "the parameter step is not", "no parameter row", "what is raised"])
 def test_what_is_lacking_is_found(lack):
-    module = type("module", (), {"__name__": __name__, "__all__": ["learn"], "learn": staticmethod(learn)})
+    module = types.ModuleType(__name__)
+    module.__dict__.update(__all__=["learn"], learn=learn)
     assert any(lack in fault for fault in REFERENCE["faults"](module))
