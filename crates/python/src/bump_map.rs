@@ -4,7 +4,12 @@ use tolman_maps::bump_map::{BumpMap, BumpMove, BumpWay};
 use crate::errors::{refused, wrong};
 use crate::maze::direction;
 
-/// A map of places from actions and bumps alone.
+/// A map of places from actions and bumps alone, without odometry, of a robot that moves by cells.
+///
+/// Parameters
+/// ----------
+/// look : int
+///     What the place looks like where the robot is, from 0 to 2³² − 1.
 #[pyclass(name = "BumpMap", module = "tolman")]
 pub(crate) struct PyBumpMap(BumpMap);
 
@@ -17,8 +22,21 @@ impl PyBumpMap {
         Self(BumpMap::new(look))
     }
 
-    /// Takes in a move to `action`, `"north"`, `"east"`, `"south"` or `"west"`: whether the robot
-    /// went there or bumped and stayed, and what the place looks like where it is now.
+    /// Takes in a move.
+    ///
+    /// Parameters
+    /// ----------
+    /// action : {"north", "east", "south", "west"}
+    ///     Where the robot tried to go.
+    /// moved : bool
+    ///     Whether it went there, or bumped and stayed.
+    /// look : int
+    ///     What the place looks like where it is now, from 0 to 2³² − 1.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If there is no such direction, or no map explains what was met.
     #[pyo3(signature = (action, moved, look = 0))]
     fn learn(&mut self, py: Python<'_>, action: &str, moved: bool, look: u32) -> PyResult<()> {
         let action = direction("action", action)?;
@@ -31,7 +49,7 @@ impl PyBumpMap {
             .map_err(|error| refused("moved", &error))
     }
 
-    /// Returns where to go to learn more.
+    /// Returns where to go to learn more: "north", "east", "south" or "west".
     fn advice(&self) -> String {
         self.0.advice().to_string()
     }
@@ -73,7 +91,23 @@ impl PyBumpMap {
         self.0.is_tested()
     }
 
-    /// Returns what is known of a way: `"untried"`, `"closed"` or `"open"`.
+    /// Returns what is known of a way: "untried", "closed" or "open".
+    ///
+    /// Parameters
+    /// ----------
+    /// place : int
+    ///     One of `places`.
+    /// action : {"north", "east", "south", "west"}
+    ///     Where the way leads.
+    ///
+    /// Returns
+    /// -------
+    /// str
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If there is no such place or direction.
     fn way(&self, place: u32, action: &str) -> PyResult<&'static str> {
         Ok(match self.known(place, action)? {
             BumpWay::Untried => "untried",
@@ -83,6 +117,22 @@ impl PyBumpMap {
     }
 
     /// Returns the place to which an open way leads, otherwise `None`.
+    ///
+    /// Parameters
+    /// ----------
+    /// place : int
+    ///     One of `places`.
+    /// action : {"north", "east", "south", "west"}
+    ///     Where the way leads.
+    ///
+    /// Returns
+    /// -------
+    /// int or None
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If there is no such place or direction.
     fn beyond(&self, place: u32, action: &str) -> PyResult<Option<u32>> {
         Ok(match self.known(place, action)? {
             BumpWay::To(next) => Some(next),

@@ -6,7 +6,7 @@ use tolman_replay::Replay;
 use crate::map::table;
 use crate::replay::PyReplay;
 
-/// A drive to the goal by a learned map.
+/// A drive to the goal by a learned map, as `Map.drive` returns it.
 #[pyclass(name = "Drive", module = "tolman", frozen)]
 pub(crate) struct PyDrive {
     /// Whether the robot is at the goal.
@@ -24,7 +24,7 @@ pub(crate) struct PyDrive {
 
 #[pymethods]
 impl PyDrive {
-    /// Returns the robot's true way, one row per step: x and y, m, and heading, rad.
+    /// Returns the robot's true way, an array of shape (steps + 1, 3): x and y, m, and heading, rad.
     #[getter]
     fn path<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         table(py, &self.poses)

@@ -7,7 +7,26 @@ use tolman_papers::real::{MappedLog, RobotLog};
 use crate::errors::{reasons, unread, wrong};
 use crate::map::PyMap;
 
-/// Finds the way of a robot from its log, in the format of CARMEN or Wean Hall, plain or gzipped.
+/// Finds the way of a robot from its log.
+///
+/// Parameters
+/// ----------
+/// path : str or path
+///     A log in the format of CARMEN or Wean Hall, plain or gzipped.
+/// system : str
+///     What finds it: "scan-matching", or another that the error of a wrong name lists.
+///
+/// Returns
+/// -------
+/// Map
+///     With `path`, and places as far as the system has them.
+///
+/// Raises
+/// ------
+/// OSError
+///     If the file cannot be read.
+/// ValueError
+///     If there is no such system, or the file is not such a log. The message names the line.
 #[pyfunction]
 #[expect(
     clippy::needless_pass_by_value,

@@ -14,7 +14,7 @@ use crate::replay::PyReplay;
 use crate::robot::tuple;
 use crate::system::{Lesson, drive, opened};
 
-/// A map that a system has learned.
+/// A map that a system has learned, as `learn`, `map_log` and `Map.open` return it.
 #[pyclass(name = "Map", module = "tolman", frozen)]
 pub(crate) struct PyMap {
     pub(crate) view: MapView,
@@ -63,14 +63,30 @@ impl PyMap {
         links.map(|link| (link.from, link.to)).collect()
     }
 
-    /// Returns the robot's way, one row per step or scan: x and y, m, and heading, rad. For a
-    /// simulated robot it is the true way, for a log the one that was found.
+    /// Returns the robot's way, an array of shape (steps or scans, 3): x and y, m, and heading, rad.
+    /// For a simulated robot it is the true way, for a log the one that was found.
     #[getter]
     fn path<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         table(py, &self.poses)
     }
 
-    /// Reads a map that [`Self::save`] or `tolman learn` wrote.
+    /// Reads a map that `save` or `tolman learn` wrote.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or path
+    ///     The file.
+    ///
+    /// Returns
+    /// -------
+    /// Map
+    ///
+    /// Raises
+    /// ------
+    /// OSError
+    ///     If the file cannot be read.
+    /// ValueError
+    ///     If it holds no map. The message says where.
     #[staticmethod]
     #[expect(
         clippy::needless_pass_by_value,
@@ -83,6 +99,18 @@ impl PyMap {
     }
 
     /// Writes the map to a file that the command reads, as `tolman map show` and `tolman drive`.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or path
+    ///     The file, which is overwritten.
+    ///
+    /// Raises
+    /// ------
+    /// OSError
+    ///     If it cannot be written.
+    /// ValueError
+    ///     If the system has no such file.
     #[expect(
         clippy::needless_pass_by_value,
         reason = "Python hands over a path of its own"
@@ -92,8 +120,25 @@ impl PyMap {
         std::fs::write(&path, text).map_err(|error| unread(&path.display().to_string(), &error))
     }
 
-    /// Sends a robot by the map from a random place to the goal: by default in the maze in which
-    /// the map was learned. `progress` is as for `learn`.
+    /// Sends a robot by the map from a random place to the goal. Ctrl-C ends it within one action.
+    ///
+    /// Parameters
+    /// ----------
+    /// maze : Maze or None
+    ///     Where the robot drives; by default in the maze in which the map was learned.
+    /// seed : int
+    ///     From 0. The same seed gives the same drive.
+    /// progress : callable or None
+    ///     Called now and then with the number of time steps so far and a few words.
+    ///
+    /// Returns
+    /// -------
+    /// Drive
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If the map has no file or does not know its maze, or the robot does not fit into the maze.
     #[pyo3(signature = (maze = None, *, seed = 1, progress = None))]
     #[expect(
         clippy::needless_pass_by_value,
@@ -116,6 +161,11 @@ impl PyMap {
     }
 
     /// Returns the replay of the learning, which a notebook shows. The system learns again for it.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If the map is of a log or a file.
     fn replay(&self, py: Python<'_>) -> PyResult<PyReplay> {
         let lesson = self
             .lesson
@@ -126,12 +176,30 @@ impl PyMap {
 
     /// Returns the places as a frame of pandas: a row a place, its id as the index, x and y, m, and
     /// its landmark, each as far as it is known.
+    ///
+    /// Raises
+    /// ------
+    /// ImportError
+    ///     If pandas is not installed.
     fn to_frame<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         pictures(py)?.call_method1("frame_of_places", (self.places(py)?,))
     }
 
-    /// Draws places, links and the robot's way with matplotlib into `ax`, or into new axes, and
-    /// returns the axes.
+    /// Draws places, links and the robot's way with matplotlib, in metres.
+    ///
+    /// Parameters
+    /// ----------
+    /// ax : matplotlib.axes.Axes or None
+    ///     Where to draw; None makes new axes.
+    ///
+    /// Returns
+    /// -------
+    /// matplotlib.axes.Axes
+    ///
+    /// Raises
+    /// ------
+    /// ImportError
+    ///     If matplotlib is not installed.
     #[pyo3(signature = (ax = None))]
     fn plot<'py>(
         &self,
@@ -144,6 +212,11 @@ impl PyMap {
 
     /// Returns the map as a directed graph of networkx. Its nodes are ids, with the attributes x
     /// and y, m, and landmark, as text, each as far as it is known.
+    ///
+    /// Raises
+    /// ------
+    /// ImportError
+    ///     If networkx is not installed.
     fn to_networkx<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let graph = py.import("networkx")?.call_method0("DiGraph")?;
         for place in &self.view.places {

@@ -17,7 +17,20 @@ use crate::map::pictures;
 /// A cell as Python writes it: column from the west, row from the south.
 pub(crate) type CellTuple = (u16, u16);
 
-/// A maze of square cells.
+/// A maze of square cells. A cell is a tuple: column from the west, row from the south, from 0.
+///
+/// Parameters
+/// ----------
+/// source : str, path or array
+///     The text of a maze in any format that `tolman maze check` accepts, the path of its file, or
+///     an array of walls as `to_array` returns it.
+///
+/// Raises
+/// ------
+/// ValueError
+///     If it is no maze. The message names the line, or the row and column.
+/// OSError
+///     If the file cannot be read.
 #[pyclass(name = "Maze", module = "tolman", frozen)]
 pub(crate) struct PyMaze {
     pub(crate) name: String,
@@ -49,8 +62,25 @@ impl PyMaze {
         Ok(Self { name, file })
     }
 
-    /// Generates a maze of a family, such as `perfect`, `braided` or `office`. The same `seed`
-    /// gives the same maze.
+    /// Generates a maze of a family.
+    ///
+    /// Parameters
+    /// ----------
+    /// family : str
+    ///     Such as "perfect", "braided" or "office"; the error of a wrong name lists all.
+    /// width, height : int
+    ///     Number of columns and rows.
+    /// seed : int
+    ///     From 0. The same seed gives the same maze.
+    ///
+    /// Returns
+    /// -------
+    /// Maze
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If there is no such family, or it has no maze of this size.
     #[staticmethod]
     #[pyo3(signature = (family = "perfect", width = 8, height = 8, *, seed = 1))]
     fn generate(family: &str, width: u16, height: u16, seed: u64) -> PyResult<Self> {
@@ -98,8 +128,23 @@ impl PyMaze {
         self.maze().goals().iter().copied().map(tuple).collect()
     }
 
-    /// Returns whether there is no wall between `cell` and its neighbour in a direction: `"north"`,
-    /// `"east"`, `"south"` or `"west"`.
+    /// Returns whether there is no wall between a cell and its neighbour.
+    ///
+    /// Parameters
+    /// ----------
+    /// cell : (int, int)
+    ///     Column from the west and row from the south, from 0.
+    /// direction : {"north", "east", "south", "west"}
+    ///     Where the neighbour lies.
+    ///
+    /// Returns
+    /// -------
+    /// bool
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If there is no such cell or direction.
     fn is_open(&self, cell: CellTuple, direction: &str) -> PyResult<bool> {
         let cell = self.cell("cell", cell)?;
         Ok(self
@@ -107,7 +152,21 @@ impl PyMaze {
             .is_open(cell, self::direction("direction", direction)?))
     }
 
-    /// Returns the neighbours of `cell` without a wall in between.
+    /// Returns the neighbours of a cell without a wall in between.
+    ///
+    /// Parameters
+    /// ----------
+    /// cell : (int, int)
+    ///     Column from the west and row from the south, from 0.
+    ///
+    /// Returns
+    /// -------
+    /// list of (int, int)
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If there is no such cell.
     fn neighbours(&self, cell: CellTuple) -> PyResult<Vec<CellTuple>> {
         let cell = self.cell("cell", cell)?;
         Ok(self
@@ -117,8 +176,21 @@ impl PyMaze {
             .collect())
     }
 
-    /// Returns the cells of a shortest path, including both ends, or `None` if no path exists. By
-    /// default it leads from the marked start to a marked goal.
+    /// Returns the cells of a shortest path, including both ends, or `None` if no path exists.
+    ///
+    /// Parameters
+    /// ----------
+    /// start, goal : (int, int) or None
+    ///     The ends. By default the path leads from the marked start to the nearest marked goal.
+    ///
+    /// Returns
+    /// -------
+    /// list of (int, int) or None
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If there is no such cell, or none is given and none is marked.
     #[pyo3(signature = (start = None, goal = None))]
     fn shortest_path(
         &self,
@@ -166,6 +238,11 @@ impl PyMaze {
     }
 
     /// Returns the openings as an undirected graph of networkx, whose nodes are cells.
+    ///
+    /// Raises
+    /// ------
+    /// ImportError
+    ///     If networkx is not installed.
     fn to_networkx<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         let graph = py.import("networkx")?.call_method0("Graph")?;
         for cell in self.maze().grid().cells() {
@@ -234,8 +311,22 @@ impl PyMaze {
         )
     }
 
-    /// Draws the walls with matplotlib into `ax`, or into new axes, and returns the axes. A cell is
-    /// a unit wide, and the south-west corner lies at the origin.
+    /// Draws the walls with matplotlib. A cell is a unit wide, and the south-west corner lies at the
+    /// origin.
+    ///
+    /// Parameters
+    /// ----------
+    /// ax : matplotlib.axes.Axes or None
+    ///     Where to draw; None makes new axes.
+    ///
+    /// Returns
+    /// -------
+    /// matplotlib.axes.Axes
+    ///
+    /// Raises
+    /// ------
+    /// ImportError
+    ///     If matplotlib is not installed.
     #[pyo3(signature = (ax = None))]
     fn plot<'py>(
         slf: &Bound<'py, Self>,
@@ -250,6 +341,16 @@ impl PyMaze {
     }
 
     /// Writes the maze in the project's format, as the command reads it.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or path
+    ///     The file, which is overwritten.
+    ///
+    /// Raises
+    /// ------
+    /// OSError
+    ///     If it cannot be written.
     #[expect(
         clippy::needless_pass_by_value,
         reason = "Python hands over a path of its own"

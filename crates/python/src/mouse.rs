@@ -8,6 +8,20 @@ use crate::errors::{refused, wrong};
 use crate::maze::{CellTuple, direction};
 
 /// A micromouse that visits every cell of a maze, of which it knows the size.
+///
+/// Parameters
+/// ----------
+/// width, height : int
+///     Number of columns and rows, from 1 to 32.
+/// start : (int, int)
+///     Column from the west and row from the south, from 0.
+/// heading : {"north", "east", "south", "west"}
+///     Where the mouse looks.
+///
+/// Raises
+/// ------
+/// ValueError
+///     If there is no such size, cell or direction.
 #[pyclass(name = "Mouse", module = "tolman")]
 pub(crate) struct PyMouse {
     driver: Driver<WholeMaze>,
@@ -52,9 +66,23 @@ impl PyMouse {
         })
     }
 
-    /// Takes the numbers of open cells to the left, ahead and to the right, and returns what to do:
-    /// degrees to turn clockwise, then cells to drive ahead, or back if negative. `None` if it has
-    /// visited every cell that can be reached.
+    /// Takes what the mouse sees, and returns what to do.
+    ///
+    /// Parameters
+    /// ----------
+    /// left, ahead, right : int
+    ///     Number of open cells to that side.
+    ///
+    /// Returns
+    /// -------
+    /// (int, int) or None
+    ///     Degrees to turn clockwise, then cells to drive ahead, or back if negative. `None` if it
+    ///     has visited every cell that can be reached.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If the walls that it sees contradict those that it saw before.
     fn next(&mut self, left: u16, ahead: u16, right: u16) -> PyResult<Option<(i32, i32)>> {
         if self.is_done {
             return Ok(None);

@@ -5,7 +5,8 @@ use tolman_replay::{Replay, moving_picture, page};
 
 use crate::errors::{refused, unread};
 
-/// The recording of a robot's way, and of what its system knew on it.
+/// The recording of a robot's way, and of what its system knew on it, as `Map.replay` and
+/// `Drive.replay` return it.
 #[pyclass(name = "Replay", module = "tolman", frozen)]
 pub(crate) struct PyReplay(pub(crate) Replay);
 
@@ -22,6 +23,16 @@ impl PyReplay {
     }
 
     /// Writes the page to a file.
+    ///
+    /// Parameters
+    /// ----------
+    /// path : str or path
+    ///     The file, which is overwritten.
+    ///
+    /// Raises
+    /// ------
+    /// OSError
+    ///     If it cannot be written.
     #[expect(
         clippy::needless_pass_by_value,
         reason = "Python hands over a path of its own"

@@ -14,6 +14,23 @@ use crate::maze::PyMaze;
 pub(crate) type PoseTuple = (f64, f64, f64);
 
 /// A simulated Pioneer with a ring of laser beams, a compass and encoders, in a maze.
+///
+/// Parameters
+/// ----------
+/// maze : Maze
+///     Where it drives.
+/// seed : int
+///     From 0, of all random numbers.
+/// start : "marked", "random" or (float, float, float)
+///     The maze's start, anywhere, or x and y, m from the south-west corner, and heading, rad
+///     counter-clockwise from east.
+/// noise : bool
+///     Whether motors and sensors err.
+///
+/// Raises
+/// ------
+/// ValueError
+///     If the maze is not one that a robot can drive in, or the start lies in a wall.
 #[pyclass(name = "Robot", module = "tolman")]
 pub(crate) struct PyRobot {
     robot: CoursePioneer,
@@ -113,8 +130,19 @@ impl PyRobot {
         Ok((slf.getattr("_driven")?, made))
     }
 
-    /// Makes a time step. `turn` is the share of a full turn per step, counter-clockwise;
-    /// `translate` is the share of a full step ahead. Both are from −1 to 1.
+    /// Makes a time step.
+    ///
+    /// Parameters
+    /// ----------
+    /// turn : float
+    ///     Share of a full turn per step, from −1 to 1, counter-clockwise.
+    /// translate : float
+    ///     Share of a full step ahead, from −1 to 1.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If a share is not from −1 to 1.
     fn step(&mut self, py: Python<'_>, turn: f64, translate: f64) -> PyResult<()> {
         for (name, value) in [("turn", turn), ("translate", translate)] {
             if !value.is_finite() {
@@ -131,8 +159,8 @@ impl PyRobot {
         Ok(())
     }
 
-    /// Returns the ranges of the laser's beams, m, counter-clockwise from the one that looks ahead;
-    /// `None` if the laser gave no reading.
+    /// Returns the ranges of the laser's beams, m, an array of shape (beams,), counter-clockwise from
+    /// the one that looks ahead; `None` if the laser gave no reading.
     #[getter]
     fn ranges<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
         let scan = self.robot.sensing().scan.as_ref();
@@ -165,7 +193,8 @@ impl PyRobot {
         self.robot.landmark() == Some(Landmark::Goal)
     }
 
-    /// Returns the true pose, which the robot does not sense.
+    /// Returns the true pose, which the robot does not sense: x and y, m, and heading, rad
+    /// counter-clockwise from east.
     #[getter]
     fn pose(&self) -> PoseTuple {
         tuple(self.robot.truth().pose)

@@ -21,17 +21,38 @@ use crate::errors::{reasons, refused, wrong};
 use crate::map::PyMap;
 use crate::maze::PyMaze;
 
-/// Returns the names of the systems that learn a map of a maze.
+/// Returns the names of the systems that learn a map of a maze, as a list of str.
 #[pyfunction]
 pub(crate) fn systems() -> Vec<String> {
     let learners = Registry::current().learners();
     learners.map(|system| system.name().to_owned()).collect()
 }
 
-/// Lets a system learn a map of a maze with a simulated robot: the one of its paper (`"own"`) or
-/// another that can carry it, such as `"laser-pioneer"`. The same `seed` gives the same map.
-/// `progress` is called now and then with the number of time steps so far and a few words. Ctrl-C
-/// ends it within one action of the robot.
+/// Lets a system learn a map of a maze with a simulated robot. Ctrl-C ends it within one action of
+/// the robot.
+///
+/// Parameters
+/// ----------
+/// maze : Maze
+///     Where the robot drives.
+/// system : str
+///     One of `systems()`.
+/// seed : int
+///     From 0. The same seed gives the same map.
+/// robot : str
+///     The robot of the system's paper, "own", or another that can carry it, such as
+///     "laser-pioneer".
+/// progress : callable or None
+///     Called now and then with the number of time steps so far and a few words.
+///
+/// Returns
+/// -------
+/// Map
+///
+/// Raises
+/// ------
+/// ValueError
+///     If there is no such system or robot, or it cannot learn in this maze.
 #[pyfunction]
 #[pyo3(signature = (maze, system = "mslst-better", seed = 1, *, robot = "own", progress = None))]
 #[expect(

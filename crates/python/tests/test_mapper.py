@@ -2,8 +2,6 @@
 
 import io
 import json
-import os
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -11,19 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 import tolman
+from command import command
 
 ROOT = Path(__file__).parents[3]
 EXAMPLE = ROOT / "crates" / "python" / "examples" / "mapper_class.py"
 HELLO = {"protocol": 1, "robot": "pioneer", "radius": 0.2, "step_us": 1, "step_limit": None, "corridor_width": 1.0}
 STEP = {"step": 0, "sensing": {"compass": 0.0}, "landmark": "Start", "task": "explore", "put_down": False}
-
-
-def command():
-    """Return the program `tolman`, on the PATH or as this workspace built it."""
-    folder = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target"))
-    built = [str(folder / profile / "tolman") for profile in ("release", "debug")]
-    found = [os.environ.get("TOLMAN"), shutil.which("tolman"), *map(shutil.which, built)]
-    return next((program for program in found if program), None)
 
 
 def answers(mapper, *lines):

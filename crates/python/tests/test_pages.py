@@ -1,11 +1,13 @@
 """What the page and the example show runs as it stands."""
 
+import os
 import re
 import runpy
 import sys
 from pathlib import Path
 
 import pytest
+from command import command
 
 ROOT = Path(__file__).parents[3]
 PAGE = ROOT / "docs" / "python.md"
@@ -46,7 +48,11 @@ def test_the_scores_are_made(monkeypatch, capsys):
 
 
 @pytest.mark.parametrize("notebook", NOTEBOOKS, ids=lambda path: path.stem)
-def test_the_notebooks_run(notebook):
+def test_the_notebooks_run(notebook, monkeypatch):
+    if "arena" in notebook.read_text(encoding="utf-8"):
+        if command() is None:
+            pytest.skip("the command tolman is not built")
+        monkeypatch.setenv("PATH", os.pathsep.join([str(Path(command()).parent), os.environ["PATH"]]))
     nbformat = pytest.importorskip("nbformat")
     nbclient = pytest.importorskip("nbclient")
     pytest.importorskip("ipykernel")

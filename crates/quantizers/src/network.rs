@@ -173,7 +173,9 @@ impl<S: Scalar> Network<S> {
     /// # Complexity
     /// Units × features.
     pub fn nearest(&self, input: &[S]) -> Result<Nearest<S>, InputError> {
-        Ok(self.nearest_two(input)?.first)
+        self.metric.check(input)?;
+        self.found(self.search_first(input))
+            .ok_or(InputError::NoUnits)
     }
 
     /// Returns the two units nearest to `input`; ties go to the smaller id.
@@ -263,6 +265,19 @@ impl<S: Scalar> Network<S> {
             Some(weights) => self.search_by(input, Weighted(weights), &mut best),
         }
         best
+    }
+
+    /// Returns the nearest slot to a valid input.
+    fn search_first(&self, input: &[S]) -> Candidate<S> {
+        let Some(tree) = &self.tree else {
+            return self.search(input).first;
+        };
+        let mut best = Best::none();
+        match self.metric.weights() {
+            None => tree.search_first(input, Plain, &mut best),
+            Some(weights) => tree.search_first(input, Weighted(weights), &mut best),
+        }
+        best.first
     }
 
     #[inline]

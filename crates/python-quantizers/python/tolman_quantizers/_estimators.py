@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, NoReturn, Union
 
 import numpy as np
@@ -19,6 +19,14 @@ if TYPE_CHECKING:
 
 Progress = Union[bool, Callable[[int, int], object]]
 """Whether to show progress on standard error, or what to call with the rows learnt so far and the rows in all."""
+
+
+def _distances(rows: npt.NDArray[Any], units: npt.NDArray[Any]) -> Iterator[tuple[slice, npt.NDArray[np.float64]]]:
+    """Yield the distances of some rows at a time to all units: they are computed in float64, whatever the rows are."""
+    few = max(1, 1_000_000 // max(1, len(units)))
+    for begin in range(0, len(rows), few):
+        piece = slice(begin, begin + few)
+        yield piece, optional("scipy.spatial.distance").cdist(rows[piece], units)
 
 
 class _Quantizer(Estimator):
@@ -54,11 +62,19 @@ class _Quantizer(Estimator):
         X : array of shape (rows, features)
             The inputs, learnt in their order unless `shuffle` is set.
         y : ignored
+        **refused
+            Nothing else is taken: `sample_weight` raises with what to do instead.
+
+        Returns
+        -------
+        self
 
         Raises
         ------
         ValueError
             If X or a parameter is wrong: nothing is learnt. The message names the row.
+        TypeError
+            If X is sparse, or an argument is not known.
         KeyboardInterrupt
             On Ctrl-C, within a tenth of a second. What was learnt by then is kept.
         """
@@ -78,7 +94,24 @@ class _Quantizer(Estimator):
     def partial_fit(self, X: npt.ArrayLike, y: Any = None, **refused: NoReturn) -> Self:
         """Learn once from the rows of X in their order, after all that was learnt before.
 
-        Raises as `fit` does. `labels_` is forgotten, as it told of other units.
+        `labels_` is forgotten, as it told of other units.
+
+        Parameters
+        ----------
+        X : array of shape (rows, features)
+            The inputs, with the columns of those before.
+        y : ignored
+        **refused
+            Nothing else is taken.
+
+        Returns
+        -------
+        self
+
+        Raises
+        ------
+        ValueError, TypeError, KeyboardInterrupt
+            As `fit` does, or if X has other columns than were learnt.
         """
         self._refuse("partial_fit", refused)
         learner = self._learner
@@ -94,74 +127,200 @@ class _Quantizer(Estimator):
         return self
 
     def predict(self, X: npt.ArrayLike) -> npt.NDArray[np.int64]:
-        """Return for each row of X the number of the nearest unit: its row in `units_`."""
+        """Return for each row of X the number of the nearest unit: its row in `units_`.
+
+        Many rows are compared at once, in all threads (`OMP_NUM_THREADS` sets their number). The answer is the same
+        to the bit for any number of rows and threads. Ties go to the older unit.
+
+        Parameters
+        ----------
+        X : array of shape (rows, features)
+
+        Returns
+        -------
+        array of shape (rows,), int64
+
+        Raises
+        ------
+        NotFittedError
+            If nothing was learnt yet.
+        ValueError
+            If X has other columns than were learnt, or a number that cannot be compared. The message names the row.
+        """
         learner = self._fitted()
         return learner.nearest(self._like(learner, X))[0]
 
     def fit_predict(self, X: npt.ArrayLike, y: Any = None, **refused: NoReturn) -> npt.NDArray[np.int64]:
-        """Learn from X, and return for each row the number of the nearest unit."""
+        """Learn from X, and return for each row the number of the nearest unit.
+
+        Parameters
+        ----------
+        X : array of shape (rows, features)
+        y : ignored
+        **refused
+            Nothing else is taken.
+
+        Returns
+        -------
+        array of shape (rows,), int64
+
+        Raises
+        ------
+        ValueError, TypeError, KeyboardInterrupt
+            As `fit` does.
+        """
         self.fit(X, y, **refused)
         return self.labels_ if self.compute_labels else self.predict(X)
 
     def transform(self, X: npt.ArrayLike) -> npt.NDArray[Any]:
-        """Return the distance of each row of X to each unit, in the unit of the features: shape (rows, units)."""
+        """Return the distance of each row of X to each unit.
+
+        Parameters
+        ----------
+        X : array of shape (rows, features)
+
+        Returns
+        -------
+        array of shape (rows, units)
+            Euclidean distances in the unit of the features, float32 for a float32 learner and else float64. A frame
+            after `set_output`.
+
+        Raises
+        ------
+        NotFittedError
+            If nothing was learnt yet.
+        ValueError
+            If X has other columns than were learnt, or a number that cannot be compared. The message names the row.
+        """
         learner = self._fitted()
         rows = self._like(learner, X)
-        if not np.isfinite(rows).all():
-            learner.nearest(rows)  # It names the row.
-        distances: npt.NDArray[Any] = optional("scipy.spatial.distance").cdist(rows, self.units_)
-        return distances.astype(rows.dtype, copy=False)
+        learner.check(rows)
+        units = self.units_
+        distances = np.empty((len(rows), len(units)), rows.dtype)
+        for piece, found in _distances(rows, units):
+            distances[piece] = found
+        return distances
 
     def predict_cluster(self, X: npt.ArrayLike) -> npt.NDArray[np.int64]:
-        """Return for each row of X the cluster of the nearest unit, as `clusters_` numbers them."""
+        """Return for each row of X the cluster of the nearest unit, as `clusters_` numbers them.
+
+        Parameters
+        ----------
+        X : array of shape (rows, features)
+
+        Returns
+        -------
+        array of shape (rows,), int64
+
+        Raises
+        ------
+        NotFittedError
+            If nothing was learnt yet.
+        ValueError
+            If X has other columns than were learnt, or a number that cannot be compared. The message names the row.
+        """
         learner = self._fitted()
         return learner.nearest(self._like(learner, X))[2]
 
     def quantization_error(self, X: npt.ArrayLike) -> float:
-        """Return the mean of the **squared** distances of the rows of X to their nearest units (MSE)."""
+        """Return the mean of the **squared** distances of the rows of X to their nearest units (MSE).
+
+        Parameters
+        ----------
+        X : array of shape (rows, features)
+
+        Returns
+        -------
+        float
+            In squared units of the features.
+
+        Raises
+        ------
+        NotFittedError
+            If nothing was learnt yet.
+        ValueError
+            If X has other columns than were learnt, or a number that cannot be compared. The message names the row.
+        """
         learner = self._fitted()
         return float(learner.nearest(self._like(learner, X))[1].mean())
 
     def topographic_error(self, X: npt.ArrayLike) -> float:
-        """Return the share of the rows of X, 0 to 1, whose two nearest units share no edge."""
-        units, _, edges, _ = self._fitted().graph()
+        """Return the share of the rows of X whose two nearest units share no edge (Martinetz, Schulten 1994).
+
+        Parameters
+        ----------
+        X : array of shape (rows, features)
+
+        Returns
+        -------
+        float
+            From 0, where edges join all neighbours, to 1.
+
+        Raises
+        ------
+        NotFittedError
+            If nothing was learnt yet.
+        ValueError
+            If X has other columns than were learnt, or a number that cannot be compared. The message names the row.
+        """
+        learner = self._fitted()
+        rows = self._like(learner, X)
+        learner.check(rows)
+        units, _, edges, _ = learner.graph()
         if len(units) < 2:
             return 0.0
-        linked = {(low, high) for low, high, _ in edges.tolist()}
+        linked = np.sort(edges[:, 0] * len(units) + edges[:, 1])
         apart = 0
-        distances: npt.NDArray[Any] = np.asarray(self.transform(X))
-        for row in np.argpartition(distances, 1, axis=1)[:, :2]:
-            low, high = sorted(row.tolist())
-            apart += (low, high) not in linked
-        return apart / len(distances)
+        for _, found in _distances(rows, units):
+            two = np.sort(np.argpartition(found, 1, axis=1)[:, :2], axis=1)
+            apart += np.count_nonzero(~np.isin(two[:, 0] * len(units) + two[:, 1], linked))
+        return apart / len(rows)
 
     def score(self, X: npt.ArrayLike, y: Any = None) -> float:
-        """Return the mean squared distance with a minus, so that more is better."""
+        """Return the mean squared distance with a minus, so that more is better.
+
+        Parameters
+        ----------
+        X : array of shape (rows, features)
+        y : ignored
+
+        Returns
+        -------
+        float
+            In squared units of the features, at most 0.
+
+        Raises
+        ------
+        NotFittedError
+            If nothing was learnt yet.
+        ValueError
+            If X has other columns than were learnt, or a number that cannot be compared. The message names the row.
+        """
         return -self.quantization_error(X)
 
     @property
     def units_(self) -> npt.NDArray[Any]:
-        """The prototypes, shape (units, features), the oldest first. A copy."""
+        """The prototypes: an array of shape (units, features), the oldest first. A copy."""
         return self._fitted().graph()[0]
 
     @property
     def unit_ids_(self) -> npt.NDArray[np.int64]:
-        """The name of each unit, which it keeps when others go."""
+        """The name of each unit, which it keeps when others go: an array of shape (units,), int64."""
         return self._fitted().graph()[1]
 
     @property
     def edges_(self) -> npt.NDArray[np.int64]:
-        """The ends of each edge as rows in `units_`, shape (edges, 2)."""
+        """The ends of each edge as rows in `units_`: an array of shape (edges, 2), int64, the lower first."""
         return self._fitted().graph()[2][:, :2]
 
     @property
     def edge_ages_(self) -> npt.NDArray[np.int64]:
-        """The age of each edge, in inputs that its ends have won."""
+        """The age of each edge, in inputs that its ends have won: an array of shape (edges,), int64."""
         return self._fitted().graph()[2][:, 2]
 
     @property
     def clusters_(self) -> npt.NDArray[np.int64]:
-        """The cluster of each unit, from 0: what edges join is one."""
+        """The cluster of each unit, from 0: an array of shape (units,), int64. What edges join is one cluster."""
         return self._fitted().graph()[3]
 
     @property
@@ -173,6 +332,13 @@ class _Quantizer(Estimator):
 
         A unit has the attributes id, cluster, and its features: by their names, or as x0, x1, …
         An edge has the attribute age.
+
+        Raises
+        ------
+        NotFittedError
+            If nothing was learnt yet.
+        ImportError
+            If networkx is not installed.
         """
         units, ids, edges, clusters = self._fitted().graph()
         names = self._names()
@@ -184,7 +350,15 @@ class _Quantizer(Estimator):
         return graph
 
     def to_frame(self) -> Any:
-        """Return the units as a frame of pandas: a row a unit, its id as the index, its cluster in the last column."""
+        """Return the units as a frame of pandas: a row a unit, its id as the index, its cluster in the last column.
+
+        Raises
+        ------
+        NotFittedError
+            If nothing was learnt yet.
+        ImportError
+            If pandas is not installed.
+        """
         pandas = optional("pandas")
         units, ids, _, clusters = self._fitted().graph()
         index = pandas.Index(ids, name="id")
@@ -193,12 +367,50 @@ class _Quantizer(Estimator):
         return frame
 
     def plot(self, ax: Any = None, *, features: tuple[int, int] = (0, 1)) -> Any:
-        """Draw units and edges with matplotlib, by two of the features, and return the axes."""
+        """Draw units and edges with matplotlib, by two of the features, and return the axes.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes or None
+            Where to draw; None makes new axes.
+        features : (int, int)
+            The columns of X that are drawn, from 0: to the right, and up.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+
+        Raises
+        ------
+        NotFittedError
+            If nothing was learnt yet.
+        ValueError
+            If there is no such feature.
+        ImportError
+            If matplotlib is not installed.
+        """
         units, _, edges, clusters = self._fitted().graph()
         return _pictures.plot(ax, units, edges[:, :2], clusters, features)
 
     def svg(self, *, features: tuple[int, int] = (0, 1)) -> str:
-        """Return a picture of units and edges as SVG, by two of the features."""
+        """Return a picture of units and edges as SVG, by two of the features.
+
+        Parameters
+        ----------
+        features : (int, int)
+            The columns of X that are drawn, from 0: to the right, and up.
+
+        Returns
+        -------
+        str
+
+        Raises
+        ------
+        NotFittedError
+            If nothing was learnt yet.
+        ValueError
+            If there is no such feature.
+        """
         units, _, edges, clusters = self._fitted().graph()
         return _pictures.svg(units, edges[:, :2], clusters, features)
 
@@ -334,7 +546,7 @@ class GNG(_Grower):
     max_units : int or None
         The most units, at least 2. Without it the network grows for as long as it learns.
     growth_period : int
-        λ: a unit is added every so many inputs.
+        λ: the number of inputs from one new unit to the next.
     winner_rate, neighbour_rate : float
         ε_b and ε_n: the part of the way to an input, 0 to 1, that the nearest unit and its neighbours move.
     max_age : int
@@ -360,12 +572,12 @@ class GNG(_Grower):
         How often `fit` goes through X. "auto" goes on until there were inputs enough to grow `max_units`, and as many
         again to settle: 2 · max_units · growth_period.
     shuffle : bool
-        Whether `fit` takes the rows in an order drawn anew in each epoch. Sorted rows want it.
+        Whether `fit` takes the rows in an order that is drawn again in each epoch. Sorted rows want it.
     random_state : int, RandomState or None
         The seed of that order.
     batch_size : int or None
-        The rows whose nearest units are found at once, by products: a little faster with many units, which are almost the
-        same. None finds them row by row.
+        The number of rows whose nearest units are found at once, by products, 1 to 65536. With many features that is
+        many times as fast, and the units are almost the same. None finds them row by row.
     compute_labels : bool
         Whether `fit` ends with `labels_`.
     progress : bool or callable
@@ -373,7 +585,20 @@ class GNG(_Grower):
 
     Attributes
     ----------
-    units_, unit_ids_, edges_, edge_ages_, clusters_, labels_, n_features_in_, feature_names_in_
+    units_ : array of shape (units, features)
+        The prototypes, the oldest first.
+    unit_ids_ : array of shape (units,)
+        The name of each unit, which it keeps when others go.
+    edges_ : array of shape (edges, 2)
+        The ends of each edge, as rows in `units_`.
+    edge_ages_ : array of shape (edges,)
+        The age of each edge, in inputs that its ends have won.
+    clusters_ : array of shape (units,)
+        The cluster of each unit: what edges join.
+    labels_ : array of shape (rows,)
+        The nearest unit of each row that `fit` was given.
+    n_features_in_, feature_names_in_
+        The number of columns of X, and their names if it was a frame.
 
     Warns
     -----
@@ -438,9 +663,12 @@ class EquilibriumGNG(_Grower):
     gate : {"mean_error", "rate"}
         What is compared with it: the mean of the units' errors, as in MSLST, or that times 1 − decay, as in Provost's
         code for SODA.
+    max_units, growth_period, winner_rate, neighbour_rate, max_age, split_factor, decay, error, order
+        Those of `GNG`, with the defaults of MSLST. `max_units` is a bound, which need not be reached.
+    n_epochs, shuffle, random_state, batch_size, compute_labels, progress
+        Those of `GNG`.
 
-    The other parameters are those of `GNG`, and the defaults those of MSLST; `max_units` is a bound, which need not be
-    reached.
+    The attributes are those of `GNG`.
     """
 
     threshold: float
@@ -478,18 +706,22 @@ class SOINN(_Quantizer):
     max_age : int
         The age above which edges go.
     period : int
-        λ: every so many inputs, units are inserted and noise is removed.
+        λ: the number of inputs after which units are inserted and noise is removed.
     insertion : {"unless_one_grew", "unless_all_grew", "off"}
         When an inserted unit is kept.
-    denoising : {"few_wins", "low_rate", "off"}, noise_factor : float
-        Which units count as noise, and c, 0 to 1: the larger, the more units do.
+    denoising : {"few_wins", "low_rate", "off"}
+        Which units count as noise.
+    noise_factor : float
+        c, from 0 to 1: the larger, the more units count as noise.
     threshold : float or None
         A constant distance beyond which an input is new; without it each unit has its own.
     n_epochs : int or "auto"
         How often `fit` goes through X; "auto" is once.
+    shuffle, random_state, compute_labels, progress
+        Those of `GNG`.
 
-    `shuffle`, `random_state`, `compute_labels` and `progress` are those of `GNG`. The defaults are those of the paper;
-    max_age=20 with denoising="low_rate" serves noisy streams.
+    The attributes are those of `GNG`. The defaults are those of the paper; max_age=20 with denoising="low_rate" serves
+    noisy streams. An input that repeats exactly may make two units of one place, which share an edge, as the paper has it.
     """
 
     _kind = "soinn"

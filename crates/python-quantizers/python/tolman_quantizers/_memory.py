@@ -33,6 +33,8 @@ class AssociativeMemory:
     max_age, period, insertion, denoising, noise_factor, threshold
         Those of `SOINN`. The defaults keep each pair that differs from all before, even if it comes once; those of
         `SOINN` serve noisy pairs that come often.
+
+    Numbers are float64: other types are copied. A wrong parameter raises a `ValueError` when the first pair is learnt.
     """
 
     def __init__(
@@ -63,10 +65,14 @@ class AssociativeMemory:
         keys : array of shape (pairs, key features)
         responses : array of shape (pairs, response features)
 
+        Returns
+        -------
+        self
+
         Raises
         ------
         ValueError
-            If a row is wrong, which the message names: the rows before it are learnt.
+            If a parameter is wrong, or a row, which the message names: the rows before it are learnt.
         """
         left, right = _rows("keys", keys), _rows("responses", responses)
         memory = self._memory
@@ -77,25 +83,111 @@ class AssociativeMemory:
         return self
 
     def response(self, keys: npt.ArrayLike) -> _Rows:
-        """Return the response to the known key nearest to each row: shape (rows, response features)."""
+        """Return the response to the known key nearest to each row.
+
+        Parameters
+        ----------
+        keys : array of shape (rows, key features)
+
+        Returns
+        -------
+        array of shape (rows, response features)
+
+        Raises
+        ------
+        NotFittedError
+            If no pair was learnt yet.
+        ValueError
+            If a row has other features than were learnt, or a number that cannot be compared.
+        """
         return self._known().recall(_rows("keys", keys), False)
 
     def key(self, responses: npt.ArrayLike) -> _Rows:
-        """Return the key of the known response nearest to each row: shape (rows, key features)."""
+        """Return the key of the known response nearest to each row.
+
+        Parameters
+        ----------
+        responses : array of shape (rows, response features)
+
+        Returns
+        -------
+        array of shape (rows, key features)
+
+        Raises
+        ------
+        NotFittedError
+            If no pair was learnt yet.
+        ValueError
+            If a row has other features than were learnt, or a number that cannot be compared.
+        """
         return self._known().recall(_rows("responses", responses), True)
 
     def responses(self, key: npt.ArrayLike, reach: float) -> _Rows:
-        """Return all responses to keys within the distance `reach` of one key, the nearest key first."""
+        """Return all responses to keys within the distance `reach` of one key, the nearest key first.
+
+        Parameters
+        ----------
+        key : array of shape (key features,)
+        reach : float
+            In the unit of the features, from 0.
+
+        Returns
+        -------
+        array of shape (found, response features)
+
+        Raises
+        ------
+        NotFittedError
+            If no pair was learnt yet.
+        ValueError
+            If a row has other features than were learnt, or a number that cannot be compared.
+        """
         return self._known().recall_all(_row("key", key), reach, False)
 
     def keys(self, response: npt.ArrayLike, reach: float) -> _Rows:
-        """Return all keys of responses within the distance `reach` of one response, the nearest response first."""
+        """Return all keys of responses within the distance `reach` of one response, the nearest response first.
+
+        Parameters
+        ----------
+        response : array of shape (response features,)
+        reach : float
+            In the unit of the features, from 0.
+
+        Returns
+        -------
+        array of shape (found, key features)
+
+        Raises
+        ------
+        NotFittedError
+            If no pair was learnt yet.
+        ValueError
+            If a row has other features than were learnt, or a number that cannot be compared.
+        """
         return self._known().recall_all(_row("response", response), reach, True)
 
     def chain(self, key: npt.ArrayLike, *, reach: float, most: int = 1000) -> _Rows:
         """Return the response to a key, the response to that, and so on, while a key lies within `reach`.
 
-        A memory of a cycle goes round: `most` ends it.
+        Parameters
+        ----------
+        key : array of shape (features,)
+        reach : float
+            The distance within which a key has to lie, in the unit of the features.
+        most : int
+            The most responses: a memory of a cycle goes round.
+
+        Returns
+        -------
+        array of shape (found, features)
+
+        Raises
+        ------
+        NotFittedError
+            If no pair was learnt yet.
+        ValueError
+            If a row has other features than were learnt, or a number that cannot be compared; if keys and
+            responses differ in their number of features.
         """
         return self._known().chain(_row("key", key), reach, most)
 

@@ -31,10 +31,40 @@ def arena(
 ) -> list[dict[str, Any]]:
     """Send a mapper into `worlds` worlds of each family, and return a row for each of them.
 
-    A row is what `tolman arena --json` writes: `world`, `right`, `purity`, `link_recall`, `found`,
-    `why` and more. With `system`, a name or "all", the rows of our systems follow. With `log`,
-    what the mapper prints and raises is shown. `command` is the program `tolman`, by default the
-    one on the PATH. The class has to stand in a file.
+    Parameters
+    ----------
+    mapper : class made of `Mapper`
+        It has to stand at the top of a file or module, where another process finds it.
+    families : str or sequence of str
+        The kinds of mazes, or "all". `tolman arena --help` lists them.
+    worlds : int
+        The number of worlds of each family.
+    seed : int
+        The same seed gives the same worlds.
+    robot : str
+        The robot that drives, or "own" for that of MSLST Better.
+    condition : str
+        What is changed of the worlds and the robot; "as-made" is nothing.
+    system : str or None
+        A system whose rows follow, or "all".
+    log : bool
+        Whether to show what the mapper prints and raises.
+    command : str or None
+        The program `tolman`; None takes the one on the PATH.
+
+    Returns
+    -------
+    list of dict
+        What `tolman arena --json` writes: `system`, `world`, `right`, `purity`, `link_recall`, `found`, `why` and more.
+
+    Raises
+    ------
+    TypeError, ValueError
+        If the mapper is not such a class or stands in no file, or the command refuses an option.
+    FileNotFoundError
+        If there is no command.
+    RuntimeError
+        If the command fails, or the file of the mapper calls the arena when it is imported.
     """
     if IS_SERVING in os.environ:
         raise RuntimeError('tolman.arena is called while its mapper is looked up: put the call under if __name__ == "__main__":')

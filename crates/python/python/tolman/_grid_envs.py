@@ -100,6 +100,23 @@ class GridEnv(gymnasium.Env[_Observation, Any]):
     another maze, of `width` by `height` cells. `reset(options={"maze": maze})` changes it. After
     `max_steps` an episode is cut off: by default 10 for each cell, 4 for each cell and errand. An
     environment can be copied and pickled in the midst of an episode, and goes on alike.
+
+    Parameters
+    ----------
+    task : {"errand", "learn", "locate"}
+        What the robot has to do.
+    maze : Maze or str
+        A maze, or the name of a family.
+    width, height : int
+        The size in cells, for a family.
+    rays : bool
+        Whether `sides` are the numbers of cells that the robot can look along.
+    landmarks, errands : int
+        The number of landmarks, from 2, and of drives in an episode, for errands.
+    max_steps : int or None
+        The number of steps after which an episode is cut off.
+    render_mode : {None, "rgb_array"}
+        What `render` returns.
     """
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 10}
@@ -126,16 +143,50 @@ class GridEnv(gymnasium.Env[_Observation, Any]):
         self.observation_space = self._grid.observations
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[_Observation, dict[str, Any]]:
-        """Begin another episode. With a seed, what follows repeats.
+        """Begin another episode.
 
-        `options` may have "maze": a Maze for this episode and those after it, or the name of a family.
+        Parameters
+        ----------
+        seed : int or None
+            With the same seed, from 0 to 2⁶³ − 1, what follows repeats.
+        options : dict or None
+            It may have "maze": a Maze for this episode and those after it, or the name of a family.
+
+        Returns
+        -------
+        (dict, dict)
+            The observation, and `pose`, which the robot does not sense: column, row, and quarter turns to the right
+            from north.
+
+        Raises
+        ------
+        ValueError
+            If an option is not known, or the seed or the size of the maze is another.
         """
         super().reset(seed=seed)
         self._grid.reset([seed], self.np_random, options)
         return self._observed(), self._known()
 
     def step(self, action: Any) -> tuple[_Observation, float, bool, bool, dict[str, Any]]:
-        """Move, turn or tell."""
+        """Move, turn or tell.
+
+        Parameters
+        ----------
+        action : int
+            0 a cell ahead, 1 a quarter turn to the right, 2 to the left; to locate, 3 and more tell a pose.
+
+        Returns
+        -------
+        (dict, float, bool, bool, dict)
+            The observation, the reward, whether the task is done, whether the time is up, and `pose`.
+
+        Raises
+        ------
+        RuntimeError
+            If no episode is under way.
+        ValueError
+            If there is no such action.
+        """
         robots = self._grid.robots
         if not self._grid.is_seeded or robots.ended[0]:
             raise RuntimeError("no episode is under way: call reset")
@@ -192,6 +243,23 @@ class GridVectorEnv(VectorEnv[_Observation, Any, npt.NDArray[Any]]):
     `gymnasium.make_vec("tolman/Learn-v0", num_envs=64, vectorization_mode="vector_entry_point")`
     makes it. With the seed s, environment number i is `GridEnv` with the seed s + i. The step after
     the last one of an episode begins another, whatever its action, and has no reward.
+
+    Parameters
+    ----------
+    task : {"errand", "learn", "locate"}
+        What the robots have to do.
+    num_envs : int
+        The number of robots, each in an environment of its own.
+    maze : Maze or str
+        A maze, or the name of a family.
+    width, height : int
+        The size in cells, for a family.
+    rays : bool
+        Whether `sides` are the numbers of cells that the robot can look along.
+    landmarks, errands : int
+        The number of landmarks, from 2, and of drives in an episode, for errands.
+    max_steps : int or None
+        The number of steps after which an episode is cut off.
     """
 
     metadata: dict[str, Any] = {"render_modes": [], "autoreset_mode": AutoresetMode.NEXT_STEP}
@@ -223,7 +291,25 @@ class GridVectorEnv(VectorEnv[_Observation, Any, npt.NDArray[Any]]):
     def reset(
         self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[_Observation, dict[str, Any]]:
-        """Begin other episodes of all, with a seed, or one for each."""
+        """Begin other episodes of all.
+
+        Parameters
+        ----------
+        seed : int or list of int or None
+            A seed, to which each robot adds its number, or one for each.
+        options : dict or None
+            As for `GridEnv.reset`.
+
+        Returns
+        -------
+        (dict, dict)
+            The observations, arrays with a row for each robot, and an empty dict.
+
+        Raises
+        ------
+        ValueError
+            As `GridEnv.reset` does.
+        """
         if isinstance(seed, list):
             seeds = seed
             super().reset()
@@ -234,7 +320,25 @@ class GridVectorEnv(VectorEnv[_Observation, Any, npt.NDArray[Any]]):
         return self._grid.robots.observed(), {}
 
     def step(self, actions: Any) -> tuple[_Observation, Any, Any, Any, dict[str, Any]]:
-        """Make a step of all."""
+        """Make a step of all.
+
+        Parameters
+        ----------
+        actions : array of shape (num_envs,), of whole numbers
+            What each does, as for `GridEnv.step`.
+
+        Returns
+        -------
+        (dict, array, array, array, dict)
+            The observations, and for each robot the reward, whether its task is done and whether its time is up.
+
+        Raises
+        ------
+        RuntimeError
+            Before the first `reset`.
+        ValueError
+            If an action is not one of those, or their number is another.
+        """
         if not self._grid.is_seeded:
             raise RuntimeError("no episode is under way: call reset")
         rewards, ended, cut = self._grid.robots.step(_whole(actions))

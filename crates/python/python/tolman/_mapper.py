@@ -12,7 +12,11 @@ import numpy as np
 
 
 class Hello(TypedDict):
-    """What a mapper is told of its robot, once. Lengths are metres."""
+    """What a mapper is told of its robot, once.
+
+    `radius` of the robot and `corridor_width`, from wall to wall, are in metres. A time step takes `step_us`
+    microseconds, and there are at most `step_limit` of them, or None. `protocol` is 1.
+    """
 
     protocol: int
     robot: str
@@ -23,7 +27,14 @@ class Hello(TypedDict):
 
 
 class Step(TypedDict):
-    """What a mapper is told after a time step. `docs/brain.md` describes what is sensed."""
+    """What a mapper is told after a time step.
+
+    `step` counts from 0. `sensing` has what the robot's sensors gave: "compass", rad; "odometry", "distance" in metres
+    and "turn" in rad since the step before; "scan", with "ranges" in metres, counter-clockwise from ahead, and "ring",
+    the "spacing" of its beams in rad and its "max_range". `landmark` is "Start", "Goal", {"Numbered": 7} or None.
+    `task` is "explore", "localize" or "reach-goal". `put_down` says that the robot was carried elsewhere: this sensing is
+    from before.
+    """
 
     step: int
     sensing: dict[str, Any]
@@ -52,7 +63,7 @@ class Place(_Numbered, total=False):
 
 
 class PlaceMap(TypedDict):
-    """A map: places, and the pairs of their ids that a way joins."""
+    """A map: `places`, and `links`, the pairs of their ids that a way joins, one for each direction."""
 
     places: list[Place]
     links: list[tuple[int, int]]
@@ -70,13 +81,37 @@ class Mapper:
     """
 
     def begin(self, hello: Hello) -> None:
-        """Begin a world. Called once, before the first step; by default it does nothing."""
+        """Begin a world. Called once, before the first step; by default it does nothing.
+
+        Parameters
+        ----------
+        hello : Hello
+            The robot and its corridors.
+
+        Raises
+        ------
+        Exception
+            Whatever a method raises ends the mapper in this world, whose row says so in `why`.
+        """
 
     def step(self, told: Step) -> Belief:
         """Take what the robot senses after a time step, and return where it is believed to be.
 
-        That is a point, x east and y north in metres from where the robot started, or the id of
-        a place of the map, or a list of guesses, or None.
+        Parameters
+        ----------
+        told : Step
+            What the robot senses.
+
+        Returns
+        -------
+        (float, float) or int or list of Guess or None
+            A point, x east and y north in metres from where the robot started; or the id of a place of the map; or
+            guesses; or None, if it is not known.
+
+        Raises
+        ------
+        NotImplementedError
+            If a mapper has no such method.
         """
         raise NotImplementedError(f"{type(self).__name__} has no method step(self, told)")
 
@@ -90,7 +125,20 @@ class Mapper:
 
     @classmethod
     def run(cls, lines: Iterable[str] | None = None, out: IO[str] | None = None) -> None:
-        """Answer the arena's lines until they end, by default from stdin to stdout."""
+        """Answer the arena's lines until they end.
+
+        Parameters
+        ----------
+        lines : iterable of str or None
+            Lines of JSON; None reads stdin.
+        out : text file or None
+            Where the answers go; None writes to stdout.
+
+        Raises
+        ------
+        ValueError, TypeError
+            If a line is not JSON, or an answer cannot be written as JSON.
+        """
         out = sys.stdout if out is None else out
         mapper = cls()
         with contextlib.redirect_stdout(sys.stderr):

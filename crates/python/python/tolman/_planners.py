@@ -9,7 +9,7 @@ from ._tolman import cheapest_path
 
 
 class Path(NamedTuple):
-    """A cheapest path."""
+    """A cheapest path: `nodes` from the source to the target, both among them, and `cost`, the sum of its arcs' costs."""
 
     nodes: list[Any]
     """From the source to the target, both among them."""
@@ -20,10 +20,22 @@ class Path(NamedTuple):
 def shortest_path(graph: Mapping[Any, Any], source: Hashable, target: Hashable, *, weight: str | None = None) -> Path | None:
     """Return a cheapest path, or None where no way leads to the target.
 
-    `graph` names for each node those that its arcs lead to; as a mapping of mappings, with the
-    costs of the arcs, whole numbers from 0. A graph of networkx is such a mapping: then
-    `weight` names the attribute that holds the cost, and without it each arc costs 1. Only the
-    part of the graph that the search reaches is looked up.
+    Only the part of the graph that the search reaches is looked up.
+
+    Parameters
+    ----------
+    graph : mapping
+        For each node those that its arcs lead to; as a mapping of mappings, with the costs of the arcs: whole numbers
+        from 0. A graph of networkx is such a mapping.
+    source, target : hashable
+        Nodes of the graph.
+    weight : str or None
+        For a graph of networkx, the attribute that holds the cost. Without it each arc costs 1.
+
+    Returns
+    -------
+    Path or None
+        The nodes and the sum of the costs.
 
     Raises
     ------

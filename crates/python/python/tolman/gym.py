@@ -35,6 +35,19 @@ class MazeEnv(gymnasium.Env[_Observation, Any]):
     `maze` is a maze, or the name of a family as `Maze.generate` takes it: then each episode has
     another maze, of 5 by 5 cells. `reset(options={"maze": maze})` changes it in between. An
     environment can be copied and pickled in the midst of an episode, and goes on alike.
+
+    Parameters
+    ----------
+    maze : Maze or str or None
+        A maze, a family, or None for one perfect maze.
+    start : {"random", "marked"}
+        Where the robot begins: anywhere, or at the maze's start.
+    noise : bool
+        Whether motors and sensors err, as the Pioneer's do.
+    max_steps : int or None
+        The number of time steps after which an episode is cut off, from 1.
+    render_mode : {None, "rgb_array"}
+        What `render` returns.
     """
 
     metadata: dict[str, Any] = {"render_modes": ["rgb_array"], "render_fps": 10}
@@ -67,9 +80,24 @@ class MazeEnv(gymnasium.Env[_Observation, Any]):
         )
 
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[_Observation, dict[str, Any]]:
-        """Put the robot down again. With a seed, what follows repeats.
+        """Put the robot down again.
 
-        `options` may have "maze": a Maze for this episode and those after it, or the name of a family.
+        Parameters
+        ----------
+        seed : int or None
+            With the same seed, what follows repeats.
+        options : dict or None
+            It may have "maze": a Maze for this episode and those after it, or the name of a family.
+
+        Returns
+        -------
+        (dict, dict)
+            The observation, and `pose` and `bump`, which the robot does not sense: x and y in metres, heading in rad.
+
+        Raises
+        ------
+        ValueError
+            If an option is not known, or there is no such family.
         """
         super().reset(seed=seed)
         asked = maze_option(options)
@@ -87,7 +115,23 @@ class MazeEnv(gymnasium.Env[_Observation, Any]):
         self.max_steps = self._robot.step_limit if self._steps_asked is None else self._steps_asked
 
     def step(self, action: Any) -> tuple[_Observation, float, bool, bool, dict[str, Any]]:
-        """Turn and drive for one step."""
+        """Turn and drive for one step.
+
+        Parameters
+        ----------
+        action : array of shape (2,)
+            Turn, counter-clockwise, and translation ahead, as shares from −1 to 1 of what a step can do.
+
+        Returns
+        -------
+        (dict, float, bool, bool, dict)
+            The observation, the reward −1, whether the robot is at the goal, whether the time is up, and `pose` and `bump`.
+
+        Raises
+        ------
+        ValueError
+            If the action is not two numbers from −1 to 1.
+        """
         turn, translate = (float(part) for part in np.asarray(action).reshape(2))
         self._robot.step(turn, translate)
         arrived = self._robot.at_goal
@@ -122,7 +166,7 @@ class MazeEnv(gymnasium.Env[_Observation, Any]):
 
 
 def register() -> None:
-    """Let `gymnasium.make` know the environments: called on import."""
+    """Let `gymnasium.make` know the four environments: called on import."""
     if "tolman/Maze-v0" in gymnasium.registry:
         return
     enter = gymnasium.register  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]

@@ -64,11 +64,20 @@ impl<S: Scalar> Metric<S> {
     #[inline]
     pub(crate) fn check(&self, input: &[S]) -> Result<(), InputError> {
         InputError::check_size(self.dimension, input.len())?;
-        // A comparison with NaN is false, so this catches it as well.
-        match input.iter().position(|value| !self.allows(*value)) {
-            None => Ok(()),
-            Some(feature) => Err(self.complain(feature, input[feature])),
+        // A comparison with NaN is false, so this catches it as well. Values are compared in lanes,
+        // and one by one only to find the first that is wrong.
+        let mut all = true;
+        for value in input {
+            all &= self.allows(*value);
         }
+        if all {
+            return Ok(());
+        }
+        let wrong = input.iter().position(|value| !self.allows(*value));
+        wrong.map_or(
+            Ok(()),
+            |feature| Err(self.complain(feature, input[feature])),
+        )
     }
 
     /// Checks that a prototype can come from valid inputs: rounding may put it slightly beyond the

@@ -38,6 +38,16 @@ impl<S: Scalar> Best<S> {
         }
     }
 
+    /// Returns the squared distance beyond which a unit cannot be one of the two, or with `FIRST`
+    /// the first.
+    #[inline(always)]
+    pub(super) fn worst<const FIRST: bool>(&self) -> S {
+        match FIRST {
+            true => self.first.squared_distance,
+            false => self.second.squared_distance,
+        }
+    }
+
     #[inline(always)]
     pub(crate) fn offer(&mut self, candidate: Candidate<S>) {
         if candidate.is_nearer_than(self.second) {

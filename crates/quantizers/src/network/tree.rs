@@ -313,12 +313,19 @@ impl<S: Scalar> Tree<S> {
     /// Offers the two nearest units to `best`.
     #[inline]
     pub(crate) fn search(&self, input: &[S], terms: impl Terms<S>, best: &mut Best<S>) {
-        self.visit(0, input, terms, &mut [S::ZERO; MOST_FEATURES], best);
+        self.visit::<false>(0, input, terms, &mut [S::ZERO; MOST_FEATURES], best);
     }
 
-    /// Offers the units below `node` to `best`. `gaps` holds the distance of the input from the
-    /// node's region in each feature.
-    fn visit(
+    /// Offers the nearest unit to `best`, whose second is some other unit: it skips what is farther
+    /// than the nearest so far.
+    #[inline]
+    pub(crate) fn search_first(&self, input: &[S], terms: impl Terms<S>, best: &mut Best<S>) {
+        self.visit::<true>(0, input, terms, &mut [S::ZERO; MOST_FEATURES], best);
+    }
+
+    /// Offers the units below `node` to `best`; with `FIRST`, only those that may be the nearest.
+    /// `gaps` holds the distance of the input from the node's region in each feature.
+    fn visit<const FIRST: bool>(
         &self,
         node: u32,
         input: &[S],
@@ -327,7 +334,7 @@ impl<S: Scalar> Tree<S> {
         best: &mut Best<S>,
     ) {
         match self.nodes[node as usize] {
-            Node::Leaf(leaf) => self.compare(leaf, input, terms, best),
+            Node::Leaf(leaf) => self.compare::<FIRST>(leaf, input, terms, best),
             Node::Inner {
                 feature,
                 split,
@@ -340,7 +347,7 @@ impl<S: Scalar> Tree<S> {
                 } else {
                     (children + 1, children)
                 };
-                self.visit(near, input, terms, gaps, best);
+                self.visit::<FIRST>(near, input, terms, gaps, best);
                 let before = core::mem::replace(&mut gaps[feature], gap);
                 let mut bound = S::ZERO;
                 for (feature, gap) in gaps.iter().enumerate().take(self.dimension) {
@@ -348,8 +355,8 @@ impl<S: Scalar> Tree<S> {
                         bound += terms.square(feature, *gap);
                     }
                 }
-                if bound <= best.second.squared_distance {
-                    self.visit(far, input, terms, gaps, best);
+                if bound <= best.worst::<FIRST>() {
+                    self.visit::<FIRST>(far, input, terms, gaps, best);
                 }
                 gaps[feature] = before;
             }
@@ -357,7 +364,13 @@ impl<S: Scalar> Tree<S> {
     }
 
     #[inline(always)]
-    fn compare(&self, leaf: u32, input: &[S], terms: impl Terms<S>, best: &mut Best<S>) {
+    fn compare<const FIRST: bool>(
+        &self,
+        leaf: u32,
+        input: &[S],
+        terms: impl Terms<S>,
+        best: &mut Best<S>,
+    ) {
         let leaf = &self.leaves[leaf as usize];
         let mut sums = [S::ZERO; LANES];
         for (feature, value) in input.iter().enumerate() {
@@ -368,7 +381,7 @@ impl<S: Scalar> Tree<S> {
             }
         }
         for (lane, squared_distance) in sums.into_iter().enumerate() {
-            if squared_distance <= best.second.squared_distance {
+            if squared_distance <= best.worst::<FIRST>() {
                 best.offer(Candidate {
                     squared_distance,
                     slot: leaf.slots[lane],
