@@ -273,7 +273,8 @@ class _Quantizer(Estimator):
         apart = 0
         for _, found in _distances(rows, units):
             two = np.sort(np.argpartition(found, 1, axis=1)[:, :2], axis=1)
-            apart += np.count_nonzero(~np.isin(two[:, 0] * len(units) + two[:, 1], linked))
+            are_linked = np.isin(two[:, 0] * len(units) + two[:, 1], linked)
+            apart += int(np.count_nonzero(~are_linked))
         return apart / len(rows)
 
     def score(self, X: npt.ArrayLike, y: Any = None) -> float:
