@@ -33,6 +33,7 @@ const PINNED: &[Pinned] = &[
     ),
     ("gngslam", 1, &[(10, "guesses")]),
     ("arena", QUICK, &[]),
+    ("tolman", 1, &[]),
 ];
 
 /// Tables that are compared, for experiments with too many runs. Of all others, every table is.
