@@ -1,6 +1,6 @@
 //! Mazes in which E. C. Tolman and others watched rats, as drawings of cells.
 //!
-//! Each [`Apparatus`] is drawn anew from a random number generator, so that no claim rests on one
+//! Each [`Apparatus`] is drawn from a random number generator, so that no claim rests on one
 //! drawing. [`Apparatus::usual`] is the drawing in `mazes/tolman`, whose `README.md` names the
 //! sources and what a grid changes.
 

@@ -57,8 +57,9 @@ impl Setup<'_> {
         }
     }
 
-    /// Returns the course for a robot of this body, with its doors and the [doors](Condition::Doors)
-    /// of its condition. In a maze whose file gives no width, corridors are `usual_width` m wide.
+    /// Returns the course for a robot of this body, with its doors and those of its
+    /// [condition](Condition::Doors). In a maze whose file gives no width, corridors are
+    /// `usual_width` m wide.
     ///
     /// # Errors
     /// As [`Terrain::course`].

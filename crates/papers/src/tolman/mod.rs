@@ -64,7 +64,9 @@ struct Rats {
 /// If the options name mazes.
 fn open(options: &Options) -> Result<Experiment, BoxError> {
     if !options.mazes.is_empty() {
-        return Err("the mazes are Tolman's, drawn anew for each run: leave --maze out".into());
+        return Err(
+            "the mazes are Tolman's, another drawing for each run: leave --maze out".into(),
+        );
     }
     let tables: Vec<Table> = vec![detour::table(), sunburst::table(), forks::table()];
     Ok(Experiment::new(

@@ -10,7 +10,8 @@ use super::{NO_VERDICT, sent};
 /// Name of the table.
 pub(super) const TABLE: &str = "shortcut";
 
-/// Percent of the rats that chose the path to near the food, of 18 paths (Tolman 1948).
+/// Percent of the rats that chose the path to near the food, of 18 paths, as it is usually quoted
+/// from Tolman: Cognitive maps in rats and men, 1948. The paper itself was not seen.
 const CHOSE_SHORTCUT: f64 = 36.0;
 
 pub(super) const STEPS: [RatStep; 10] = [
