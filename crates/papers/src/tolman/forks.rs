@@ -90,8 +90,8 @@ impl ForksRun {
         let all = |trip: &RatTrip| trip.count_of(&apparatus.ways);
         let errors = |trip: &RatTrip| trip.arrived.map(|_| all(trip));
         let trips = [first, second, third];
-        let gave_up = trips.iter().map(|trip| trip.end.why());
-        let why = gave_up.filter(|why| !why.is_empty()).last();
+        let mut gave_up = trips.iter().map(|trip| trip.end.why());
+        let why = gave_up.rfind(|why| !why.is_empty());
         Self {
             abstained: false,
             errors_1: errors(first),
