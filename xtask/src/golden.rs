@@ -33,6 +33,7 @@ const PINNED: &[Pinned] = &[
     ),
     ("gngslam", 1, &[(10, "guesses")]),
     ("arena", QUICK, &[]),
+    ("tolman", 1, &[]),
 ];
 
 /// Tables that are compared, for experiments with too many runs. Of all others, every table is.
@@ -73,7 +74,7 @@ pub(crate) fn run(names: &[String], bless: bool) -> Result<()> {
 }
 
 /// The slowest experiments, which only `cargo xtask golden` plays.
-const SLOW: &[&str] = &["mslst", "mslst-sweeps", "diktiometry", "gngslam"];
+const SLOW: &[&str] = &["mslst", "mslst-sweeps", "diktiometry", "gngslam", "tolman"];
 
 /// Compares all experiments but the slowest, with the command that the tests have built.
 ///

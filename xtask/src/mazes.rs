@@ -26,7 +26,9 @@ pub(crate) fn run() -> Result<()> {
 pub(crate) fn check_with(tolman: impl Fn() -> Result<Command>) -> Result<()> {
     let folder = workspace::root().join("mazes");
     let mut files = workspace::entries(&folder)?;
-    files.extend(workspace::entries(&folder.join("grid"))?);
+    for kind in ["grid", "tolman"] {
+        files.extend(workspace::entries(&folder.join(kind))?);
+    }
     files.retain(|path| path.extension().is_some_and(|extension| extension != "md"));
     workspace::succeed(tolman()?.args(["maze", "check"]).args(files))?;
     let distinctive = DISTINCTIVE.map(|name| folder.join(name));

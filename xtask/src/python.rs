@@ -23,6 +23,7 @@ const PACKAGES: &[&str] = &[
     "pyarrow",
     "matplotlib",
     "aalpy",
+    "ratinabox",
     "nbclient",
     "ipykernel",
     "mypy",

@@ -29,6 +29,7 @@ extern crate alloc;
 /// Any error, for readers and callers that only report it.
 pub type BoxError = Box<dyn core::error::Error + Send + Sync>;
 
+pub mod apparatus;
 pub mod bump_walk;
 pub mod cast;
 pub mod competition;

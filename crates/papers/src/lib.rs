@@ -24,6 +24,7 @@ mod quantizers;
 pub mod real;
 mod rows;
 mod tolerances;
+mod tolman;
 mod venue;
 
 use tolman_experiment::Entry;
@@ -42,6 +43,7 @@ pub const fn catalogue() -> &'static [Entry] {
         cpm::ENTRY,
         gngslam::ENTRY,
         arena::ENTRY,
+        tolman::ENTRY,
         real::ENTRY,
     ]
 }

@@ -279,6 +279,7 @@ pub(crate) fn drive(
         from: None,
         settings: Settings::default(),
         condition: Condition::AsMade,
+        doors: &[],
         schooling: schooling(),
     };
     let outing = system.driver(slice::from_ref(&map), &setup);

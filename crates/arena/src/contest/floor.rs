@@ -102,6 +102,7 @@ impl FloorContest<'_> {
                 set: &[],
             },
             condition: Condition::AsMade,
+            doors: &[],
             schooling,
         };
         let entered = self.contestant.learner(&setup);

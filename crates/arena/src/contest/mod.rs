@@ -4,7 +4,8 @@
 //! learns. It is put down
 //! somewhere and localizes; then it is put down somewhere else and drives to the goal. Its map is
 //! compared with the drawing's [`TrueGraph`], which it never sees.
-//! A [`SteppedContest`] is played action by action.
+//! A [`SteppedContest`] is played action by action. In a [`RatExperiment`] an experimenter moves
+//! doors and watches which way is taken.
 
 mod claim;
 mod condition;
@@ -16,6 +17,7 @@ mod ideal;
 mod judgement;
 mod paint;
 mod play;
+mod rats;
 mod show;
 mod sites;
 mod spots;
@@ -35,6 +37,7 @@ pub use judgement::MapJudgement;
 pub use play::{
     Contest, ContestError, ContestRecord, Home, LearnRecord, LocateOutcome, Located, Moment,
 };
+pub use rats::{RatExperiment, RatRecord, RatStep, RatTrip};
 pub use show::{FoundOut, ShowRecord, WayHome};
 pub use stepped::{SteppedContest, TaskRecord};
 pub use true_graph::{PlaceRule, TrueGraph, TrueWay};

@@ -379,6 +379,19 @@ impl Contest<'_> {
     /// # Errors
     /// [`ContestError::Enter`] if robot and drawing do not fit together.
     pub(super) fn enter(&self, schooling: &Schooling) -> Result<Box<dyn Outing>, ContestError> {
+        self.enter_by(schooling, &[])
+    }
+
+    /// Puts the contestant at the start like [`enter`](Self::enter), where further openings are
+    /// doors, which stand open.
+    ///
+    /// # Errors
+    /// As [`enter`](Self::enter).
+    pub(super) fn enter_by(
+        &self,
+        schooling: &Schooling,
+        doors: &[(Cell, Direction)],
+    ) -> Result<Box<dyn Outing>, ContestError> {
         let terrain = Terrain::Maze(MazeFile::from(self.maze.clone()));
         let setup = Setup {
             world: self.name,
@@ -393,6 +406,7 @@ impl Contest<'_> {
                 set: &[],
             },
             condition: self.condition,
+            doors,
             schooling,
         };
         let outing = match self.contestant.baseline() {

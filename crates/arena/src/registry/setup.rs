@@ -5,6 +5,7 @@ use serde::de::DeserializeOwned;
 use thiserror::Error;
 use tolman_control::Stack;
 use tolman_geom::Pose;
+use tolman_maze::{Cell, Direction};
 use tolman_robot::{Body, Mapper, Robot, SensesLandmarks, System};
 use tolman_sim::robots::{LaserPioneerConfig, Pioneer2dx, Pioneer2dxConfig};
 use tolman_systems::Origin;
@@ -37,6 +38,9 @@ pub struct Setup<'a> {
     pub settings: Settings<'a>,
     /// Change of the robot and the world.
     pub condition: Condition,
+    /// Openings that are doors besides those of the condition, each as a cell and the way out of
+    /// it. They come first, and stand open.
+    pub doors: &'a [(Cell, Direction)],
     /// What systems learn once, before they are sent out.
     pub schooling: &'a Schooling,
 }
@@ -53,8 +57,9 @@ impl Setup<'_> {
         }
     }
 
-    /// Returns the course for a robot of this body, with the [doors](Condition::Doors) of its
-    /// condition. In a maze whose file gives no width, corridors are `usual_width` m wide.
+    /// Returns the course for a robot of this body, with its doors and those of its
+    /// [condition](Condition::Doors). In a maze whose file gives no width, corridors are
+    /// `usual_width` m wide.
     ///
     /// # Errors
     /// As [`Terrain::course`].
@@ -63,15 +68,15 @@ impl Setup<'_> {
         self.with_doors(course)
     }
 
-    /// Returns a course with the doors of this condition, if there are any.
+    /// Returns a course with its doors and those of its condition, if there are any.
     ///
     /// # Errors
     /// If a door does not fit the world.
     pub fn with_doors(&self, course: Course) -> Result<Course, BoxError> {
-        let doors = match course.is_free() {
-            true => Vec::new(),
-            false => self.condition.doors(&course.maze, self.seed),
-        };
+        let mut doors = self.doors.to_vec();
+        if !course.is_free() {
+            doors.extend(self.condition.doors(&course.maze, self.seed));
+        }
         Ok(with_doors(course, &doors)?)
     }
 

@@ -22,6 +22,7 @@ mod online_slam;
 mod own_heading;
 mod pioneer_mouse;
 mod place_scores;
+mod rats;
 mod registry;
 mod stepped;
 mod survey_file;

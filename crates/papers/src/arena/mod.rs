@@ -12,7 +12,7 @@ mod verdicts;
 mod worlds;
 
 use tolman_arena::Outing;
-use tolman_arena::contest::{Condition, Contest, ContestError, ContestRecord, Moment};
+use tolman_arena::contest::{Condition, Contest, ContestError, Moment};
 use tolman_arena::registry::{RobotEntry, Schooling};
 use tolman_draw::Figure;
 use tolman_experiment::{
@@ -193,9 +193,9 @@ impl Procedure for Arena {
 ///
 /// # Errors
 /// That of `play`.
-pub fn filmed(
+pub fn filmed<T>(
     title: &str,
-    play: impl FnOnce(&mut dyn FnMut(&dyn Outing, Moment)) -> Result<ContestRecord, ContestError>,
+    play: impl FnOnce(&mut dyn FnMut(&dyn Outing, Moment)) -> Result<T, ContestError>,
 ) -> Result<Option<Replay>, ContestError> {
     let mut film: Option<Film> = None;
     let mut replay = None;

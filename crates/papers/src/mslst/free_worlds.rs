@@ -106,6 +106,7 @@ fn played(family: &FreeFamily, seed: u64) -> Result<FreeRun, BoxError> {
         from: None,
         settings: Settings::default(),
         condition: Condition::AsMade,
+        doors: &[],
         schooling: &schooling,
     };
     let mut outing = system.learner(&setup)?;

@@ -134,6 +134,7 @@ pub(super) fn setup_of<'a>(
         from: None,
         settings: Settings::default(),
         condition: Condition::AsMade,
+        doors: &[],
         schooling,
     }
 }

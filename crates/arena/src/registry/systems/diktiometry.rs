@@ -302,7 +302,7 @@ impl DiktiometryEntry {
         let pose = Pose::new(start.position, Heading::NORTH);
         let routines = config.routines(furniture.corridor_width);
         let mut mapper = self.mapper(&office, &config);
-        if setup.condition == Condition::MovingDoors {
+        if setup.condition == Condition::MovingDoors || !setup.doors.is_empty() {
             mapper.world = WorldKind::Changing;
         }
         let paper = DiktiometerConfig::paper(routines, mapper);
