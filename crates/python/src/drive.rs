@@ -24,7 +24,8 @@ pub(crate) struct PyDrive {
 
 #[pymethods]
 impl PyDrive {
-    /// Returns the robot's true way, an array of shape (steps + 1, 3): x and y, m, and heading, rad.
+    /// Returns the robot's true way, an array of shape (steps + 1, 3): x and y, m, and heading,
+    /// rad.
     #[getter]
     fn path<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         table(py, &self.poses)

@@ -63,8 +63,8 @@ impl PyMap {
         links.map(|link| (link.from, link.to)).collect()
     }
 
-    /// Returns the robot's way, an array of shape (steps or scans, 3): x and y, m, and heading, rad.
-    /// For a simulated robot it is the true way, for a log the one that was found.
+    /// Returns the robot's way, an array of shape (steps or scans, 3): x and y, m, and heading,
+    /// rad. For a simulated robot it is the true way, for a log the one that was found.
     #[getter]
     fn path<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         table(py, &self.poses)
@@ -138,7 +138,8 @@ impl PyMap {
     /// Raises
     /// ------
     /// ValueError
-    ///     If the map has no file or does not know its maze, or the robot does not fit into the maze.
+    ///     If the map has no file or does not know its maze, or the robot does not fit into the
+    ///     maze.
     #[pyo3(signature = (maze = None, *, seed = 1, progress = None))]
     #[expect(
         clippy::needless_pass_by_value,

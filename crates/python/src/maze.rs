@@ -311,8 +311,8 @@ impl PyMaze {
         )
     }
 
-    /// Draws the walls with matplotlib. A cell is a unit wide, and the south-west corner lies at the
-    /// origin.
+    /// Draws the walls with matplotlib. A cell is a unit wide, and the south-west corner lies at
+    /// the origin.
     ///
     /// Parameters
     /// ----------

@@ -159,8 +159,8 @@ impl PyRobot {
         Ok(())
     }
 
-    /// Returns the ranges of the laser's beams, m, an array of shape (beams,), counter-clockwise from
-    /// the one that looks ahead; `None` if the laser gave no reading.
+    /// Returns the ranges of the laser's beams, m, an array of shape (beams,), counter-clockwise
+    /// from the one that looks ahead; `None` if the laser gave no reading.
     #[getter]
     fn ranges<'py>(&self, py: Python<'py>) -> Option<Bound<'py, PyArray1<f64>>> {
         let scan = self.robot.sensing().scan.as_ref();

@@ -17,8 +17,8 @@ const TILE: usize = 65_536;
 /// Number of inputs that are too few for products with all units.
 pub(crate) const FEW: usize = 8;
 
-/// Number of units from which on products pay for turning inputs and units. With 100 units, comparing
-/// distances row by row took 0.4 to 0.7 times as long; with 1000 units, 1.4 to 4.8 times.
+/// Number of units from which on products pay for turning inputs and units. With 100 units,
+/// comparing distances row by row took 0.4 to 0.7 times as long; with 1000 units, 1.4 to 4.8 times.
 const MANY: usize = 256;
 
 /// Number of distances that are summed at once, as each sum waits for itself.

@@ -424,7 +424,7 @@ impl Arguments {
     }
 }
 
-/// Returns the worlds of files, and tells which files are none.
+/// Returns the worlds of files, and tells which files have no world.
 fn of_others(paths: &[PathBuf]) -> Result<Vec<ArenaWorld>> {
     let others = ArenaWorld::of_others(paths).unboxed().or_bad_input()?;
     for refused in others.refused {
