@@ -143,7 +143,7 @@ fn islands_are_marked_as_the_same_rule_ends_from_cell_to_cell() {
 }
 
 #[test]
-fn look_alikes_and_the_shortest_walk_between_them() {
+fn aliases_and_the_shortest_walk_between_them() {
     let alike = |places| Answer {
         cells: cells(places),
         ..Answer::default()

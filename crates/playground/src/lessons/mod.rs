@@ -4,10 +4,10 @@
 //! sees, [`mark`] lets robots run with the pupil's [`Answer`] and returns the result. No answer is
 //! stored. The words of the tasks are in the page's `lessons.js`.
 
+mod aliasing;
 mod cell_film;
 mod edits;
 mod islands;
-mod look_alikes;
 mod proof;
 mod rule_run;
 mod wall_follower;
@@ -104,7 +104,7 @@ struct Task {
 const LESSONS: &[&[Task]] = &[
     wall_follower::TASKS,
     islands::TASKS,
-    look_alikes::TASKS,
+    aliasing::TASKS,
     whereabouts::TASKS,
     proof::TASKS,
 ];
