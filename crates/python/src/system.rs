@@ -164,7 +164,7 @@ impl Lesson {
                 film.see(stepped.outing());
             }
             match record {
-                Some(TaskRecord::Learned(record)) => break record,
+                Some(TaskRecord::Learned(record)) => break *record,
                 Some(_) => return Err(wrong("system: it learns no map".to_owned())),
                 None => watch.look(stepped.outing())?,
             }

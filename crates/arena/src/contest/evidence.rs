@@ -133,7 +133,7 @@ impl TrueVisits {
             purity,
             way: way.iter().map(|cell| (cell.x, cell.y)).collect(),
             founded,
-            mapped: has_all.then(|| means(&trail)).unwrap_or_default(),
+            mapped: if has_all { means(&trail) } else { Vec::new() },
         }
     }
 }
@@ -289,7 +289,8 @@ mod tests {
         let course = hall();
         // The robot was 0.4 m aside of each place, to the west and to the east in turn.
         let places = [[0.5, 0.5], [1.5, 0.5], [1.5, 1.5], [0.5, 1.5]];
-        let aside = |[x, y]: [f64; 2], id: u32| [x + if id % 2 == 0 { 0.4 } else { -0.4 }, y];
+        let aside =
+            |[x, y]: [f64; 2], id: u32| [x + if id.is_multiple_of(2) { 0.4 } else { -0.4 }, y];
         let numbered = || (0..).zip(places);
         let map = MapView {
             places: numbered()

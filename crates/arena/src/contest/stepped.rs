@@ -37,7 +37,7 @@ enum Stage {
 #[derive(Clone, Debug)]
 pub enum TaskRecord {
     /// The system has learned.
-    Learned(LearnRecord),
+    Learned(Box<LearnRecord>),
     /// Result of localizing a robot that was put down.
     Found(FoundOut),
     /// The system has gone to the goal, or not.
@@ -140,7 +140,9 @@ impl SteppedContest {
             Stage::Idle => None,
             Stage::Learning(pursuit, visits) => {
                 let driven = self.bout.driven(&pursuit, end);
-                Some(TaskRecord::Learned(self.bout.learned(driven, visits)))
+                Some(TaskRecord::Learned(Box::new(
+                    self.bout.learned(driven, visits),
+                )))
             }
             Stage::Localizing(pursuit, actions) => {
                 let driven = self.bout.driven(&pursuit, end);

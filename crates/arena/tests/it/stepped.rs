@@ -34,7 +34,7 @@ fn step_by_step_it_is_the_same_show() {
         };
         stepped.explore();
         let learned = finish(&mut stepped);
-        let told = format!("{:?}", TaskRecord::Learned(shown.learned));
+        let told = format!("{:?}", TaskRecord::Learned(Box::new(shown.learned)));
         assert_eq!(format!("{learned:?}"), told, "{contestant:?}");
         let [here, _] = contest.put_downs()[0];
         let found = match stepped.put_down(here).unwrap() {
