@@ -1,10 +1,14 @@
 //! Experiments with doors: which way is taken, and where a robot is carried.
 
 use tolman_arena::apparatus::{Apparatus, ApparatusKind};
-use tolman_arena::contest::{Condition, Contest, RatExperiment, RatRecord, RatStep};
+use tolman_arena::contest::{Condition, Contest, ContestError, RatExperiment, RatRecord, RatStep};
 use tolman_arena::registry::{Registry, Schooling};
 
-fn tried(system: &str, apparatus: &Apparatus, steps: &[RatStep]) -> RatRecord {
+fn try_out(
+    system: &str,
+    apparatus: &Apparatus,
+    steps: &[RatStep],
+) -> Result<RatRecord, ContestError> {
     let contest = Contest {
         contestant: Registry::current().system(system).unwrap(),
         robot: None,
@@ -20,7 +24,11 @@ fn tried(system: &str, apparatus: &Apparatus, steps: &[RatStep]) -> RatRecord {
         apparatus,
         steps,
     };
-    experiment.play(&Schooling::default(), |_, _| {}).unwrap()
+    experiment.play(&Schooling::default(), |_, _| {})
+}
+
+fn tried(system: &str, apparatus: &Apparatus, steps: &[RatStep]) -> RatRecord {
+    try_out(system, apparatus, steps).unwrap()
 }
 
 #[test]
@@ -62,20 +70,5 @@ fn one_that_learns_nothing_is_carried() {
 #[test]
 fn a_door_that_is_not_there_is_an_error() {
     let forks = Apparatus::usual(ApparatusKind::Forks);
-    let contest = Contest {
-        contestant: Registry::current().system("random").unwrap(),
-        robot: None,
-        maze: &forks.maze,
-        name: "rats",
-        condition: Condition::AsMade,
-        starts: 0,
-        seed: 5,
-        stopwatch: None,
-    };
-    let experiment = RatExperiment {
-        contest,
-        apparatus: &forks,
-        steps: &[RatStep::Shut(0)],
-    };
-    assert!(experiment.play(&Schooling::default(), |_, _| {}).is_err());
+    assert!(try_out("random", &forks, &[RatStep::Shut(0)]).is_err());
 }

@@ -54,6 +54,10 @@ class ActiveBrain:
             return self.places(), self.localize(sensing)
         return self.places(), self.home(told)
 
+    def map(self):
+        """Return the map."""
+        return self.mapper.map()
+
     def explore(self, sensing):
         """Drive to the nearest frontier, then to where it has not stood: landmarks show there."""
         floor, walls, corner = self.mapper.maps.grid()
@@ -168,18 +172,5 @@ class ActiveBrain:
         return self.along(path, x, y, sensing["compass"], corner)
 
 
-def main():
-    brain = ActiveBrain(wire.hello())
-    for told in wire.told():
-        answers, command = {}, {}
-        if "map" in told["ask"]:
-            answers["map"] = brain.mapper.map()
-        if "sensing" in told:
-            belief, command = brain.act(told)
-            if "belief" in told["ask"]:
-                answers["belief"] = belief
-        wire.answer(answers, **command)
-
-
 if __name__ == "__main__":
-    main()
+    wire.drive(ActiveBrain(wire.hello()))

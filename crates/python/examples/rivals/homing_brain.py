@@ -68,22 +68,23 @@ class HomingBrain:
         threading.Thread(target=self.moves.learn, daemon=True).start()
 
     def act(self, told):
-        """Return the command, and the belief."""
+        """Return the belief and the command."""
         sensing = told["sensing"]
         if sensing["compass"] is None:
-            return self.wheels.command(0, 0), []
+            return [], self.wheels.command(0, 0)
         if told["put_down"]:  # This reading is still from before the lift.
             self.walk, self.side = CellWalk(self.width), None
             self.states, self.count = list(self.automaton()), 0
-            return self.wheels.command(0, 0), []
+            return [], self.wheels.command(0, 0)
         self.wheels.learn(wire.motion(sensing), sensing["bump"])
         self.walk.step(sensing, told["landmark"])
         if told["task"] == "explore":
-            return self.drive(sensing, self.told), [{"point": self.walk.point}]
+            command = self.drive(sensing, self.told)
+            return [{"point": self.walk.point}], command
         reach = self.home if told["task"] == "reach-goal" else self.localize
         command = self.drive(sensing, reach)
         weight = 1 / max(1, len(self.states))
-        return command, [{"place": self.numbers[state], "weight": weight} for state in self.states[:8]]
+        return [{"place": self.numbers[state], "weight": weight} for state in self.states[:8]], command
 
     def drive(self, sensing, next_side):
         """Go on with the move under way, or begin the next. A shut side is a bump."""
@@ -202,18 +203,5 @@ def follow(state, side, made):
     return state.transitions[side] if state.output_fun[side] == made else None
 
 
-def main():
-    brain = HomingBrain(wire.hello())
-    for told in wire.told():
-        answers, command = {}, {}
-        if "map" in told["ask"]:
-            answers["map"] = brain.map()
-        if "sensing" in told:
-            command, belief = brain.act(told)
-            if "belief" in told["ask"]:
-                answers["belief"] = belief
-        wire.answer(answers, **command)
-
-
 if __name__ == "__main__":
-    main()
+    wire.drive(HomingBrain(wire.hello()))

@@ -57,6 +57,19 @@ def watch(mapper):
         answer(answers)
 
 
+def drive(brain):
+    """Answer each line for a brain that drives, with its map, its belief and its command."""
+    for line in told():
+        answers, command = {}, {}
+        if "map" in line["ask"]:
+            answers["map"] = brain.map()
+        if "sensing" in line:
+            belief, command = brain.act(line)
+            if "belief" in line["ask"]:
+                answers["belief"] = belief
+        answer(answers, **command)
+
+
 def motion(sensing) -> Optional[Motion]:
     """Return the motion, or `None` where its reading is missing."""
     rolled = sensing["odometry"]

@@ -2,7 +2,7 @@
 //! `playground`.
 
 use crate::playground::{PATIENCE, opened};
-use crate::tab::{Scheme, Tab};
+use crate::tab::Tab;
 
 /// Opens a task of a lesson by its address.
 fn open(tab: &mut Tab, lesson: u64, task: u64) {
@@ -224,24 +224,7 @@ fn playground_lessons_are_seen_in_every_light_and_on_every_width() {
                     fail_twice(tab);
                     marked(tab, "bad");
                 }
-                for (width, height) in [(1280, 800), (390, 844)] {
-                    tab.resize(width, height);
-                    for scheme in [Scheme::Light, Scheme::Dark] {
-                        tab.prefer(scheme);
-                        let theme = format!("{scheme:?}").to_lowercase();
-                        tab.until(&format!(
-                            "document.documentElement.dataset.theme === '{theme}'"
-                        ));
-                        tab.eval(
-                            "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))",
-                        );
-                        let name = format!("{lesson}-{task}-{stage}-{theme}-{width}");
-                        let faults = tab.eval(include_str!("inspect.js"));
-                        assert_eq!(faults.as_array().map(Vec::len), Some(0), "{name}: {faults}");
-                        tab.look(&folder.join(format!("{name}.png")));
-                        assert!(tab.overflow() <= 0.0, "{name}");
-                    }
-                }
+                tab.assert_seen_everywhere(&folder, &format!("{lesson}-{task}-{stage}"));
             }
         }
     }

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use tolman_playground::{Playground, Sketch};
 
-use crate::tab::{Scheme, Tab};
+use crate::tab::Tab;
 use crate::{folder, tab, tell};
 
 /// The page has a program to compile and robots to run, on machines that do other things besides.
@@ -199,27 +199,7 @@ fn playground_is_seen_in_every_light_and_on_every_width() {
             tab.until_within("tolmanReplay.step > 60", PATIENCE);
             tab.click("#pause");
         }
-        for (width, height) in [(1280, 800), (390, 844)] {
-            tab.resize(width, height);
-            for scheme in [Scheme::Light, Scheme::Dark] {
-                tab.prefer(scheme);
-                let theme = format!("{scheme:?}").to_lowercase();
-                tab.until(&format!(
-                    "document.documentElement.dataset.theme === '{theme}'"
-                ));
-                tab.eval(
-                    "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))",
-                );
-                let faults = tab.eval(include_str!("inspect.js"));
-                assert_eq!(
-                    faults.as_array().map(Vec::len),
-                    Some(0),
-                    "{stage} {width}: {faults}"
-                );
-                tab.look(&folder.join(format!("{stage}-{theme}-{width}.png")));
-                assert!(tab.overflow() <= 0.0, "{stage} {width} {theme}");
-            }
-        }
+        tab.assert_seen_everywhere(&folder, stage);
     }
     tab.assert_content();
 }

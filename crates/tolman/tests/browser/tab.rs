@@ -237,6 +237,30 @@ impl Tab {
         assert!(self.overflow() <= 0.0, "{seen}: scrolls sideways");
     }
 
+    /// Checks that the page as it stands has no faults in dark and light, on a desktop and on a
+    /// phone, and saves pictures of it in `folder`.
+    #[track_caller]
+    pub(crate) fn assert_seen_everywhere(&mut self, folder: &Path, name: &str) {
+        for (width, height) in [(1280, 800), (390, 844)] {
+            self.resize(width, height);
+            for scheme in [Scheme::Light, Scheme::Dark] {
+                self.prefer(scheme);
+                let theme = format!("{scheme:?}").to_lowercase();
+                self.until(&format!(
+                    "document.documentElement.dataset.theme === '{theme}'"
+                ));
+                self.eval(
+                    "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))",
+                );
+                let seen = format!("{name}-{theme}-{width}");
+                let faults = self.eval(include_str!("inspect.js"));
+                assert_eq!(faults.as_array().map(Vec::len), Some(0), "{seen}: {faults}");
+                self.look(&folder.join(format!("{seen}.png")));
+                assert!(self.overflow() <= 0.0, "{seen}");
+            }
+        }
+    }
+
     /// Returns the page's errors and warnings so far, and its requests to the network.
     pub(crate) fn complaints(&self) -> Vec<String> {
         let events = self.devtools.events();
